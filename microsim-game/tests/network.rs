@@ -9,6 +9,8 @@ use microsim_core::scenario::Scenario;
 use microsim_game::network::pacing::Pacing;
 use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
+use microsim_game::rules::food_chain::change::{self, changes};
+use microsim_game::rules::food_chain::{self, Deed};
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use proptest::prelude::*;
@@ -160,6 +162,102 @@ fn who_comes_late_takes_a_bots_cell_and_else_watches_without_slowing_anybody() {
     game.check();
     let seats: Vec<Option<usize>> = game.sessions[1..].iter().map(Session::own).collect();
     assert!(seats == [Some(1), Some(0), None] || seats == [Some(1), None, Some(0)], "{seats:?}");
+}
+
+/// A food chain of three in a small room: the second cell has doubled already, and the third is small and starves within seconds.
+const CHAIN: &str = r#"
+    schema = 1
+    name = "food-chain"
+    [game]
+    time = 6.0
+    [world]
+    size = [90.0, 60.0]
+    [amoeboid_cell.cell]
+    radii = [7.5, 7.5]
+    division = { least_particles = 12, least_nodes = 8 }
+    [amoeboid_cell.large]
+    radii = [11.0, 11.0]
+    division = { least_particles = 12, least_nodes = 8 }
+    [amoeboid_cell.small]
+    radii = [4.0, 4.0]
+    division = { least_particles = 12, least_nodes = 8 }
+    [agar.pellet]
+    radius = 1.1
+    [[spawn]]
+    of = "cell"
+    player = true
+    at = [12.0, 12.0]
+    [[spawn]]
+    of = "large"
+    name = "player-2"
+    at = [72.0, 45.0]
+    [[spawn]]
+    of = "small"
+    name = "player-3"
+    at = [12.0, 48.0]
+    [[spawn]]
+    of = "pellet"
+    count = 20
+    gap = 0.5
+"#;
+
+/// A match of it in which the second player takes the third change, and both divide, as soon as they do not take something in.
+fn chain(weather: Weather) -> Match {
+    let start = Round::new(&Scenario::parse(CHAIN, &[]).unwrap()).unwrap();
+    let mut game = Match::of(start, 6.0, Pacing::USUAL, weather, 7);
+    game.deed = |member, frame| match (member, frame) {
+        (1, 20) => Some(Deed::Choose(2)),
+        (0 | 1, 30..120) if frame % 10 == 0 => Some(Deed::Divide),
+        _ => None,
+    };
+    game
+}
+
+/// Changes of the cell of each player that has one, and cells of each line; one that divides counts twice.
+fn bodies(round: &Round) -> Vec<(Option<u32>, usize)> {
+    let cells = || round.world().view().organisms();
+    let of = |(player, cell)| {
+        let own = cells().find(|other| other.id() == cell).map(changes);
+        let line = cells().filter(|other| change::line_of(*other) == Some(player));
+        (own, line.map(|cell| 1 + usize::from(cell.dividing_for().is_some())).sum())
+    };
+    round.players().enumerate().map(of).collect()
+}
+
+#[test]
+fn a_choice_and_a_division_count_in_the_same_frame_for_all() {
+    let mut game = chain(WILD);
+    game.play();
+    game.check();
+    for session in &game.sessions {
+        let bodies = bodies(session.round());
+        assert_eq!([0, 1, 2].map(|player| bodies[player].0), [Some(0), Some(1), None]);
+        assert!(bodies[0].1 > 1 && bodies[1].1 > 1 && bodies[2].1 == 0, "{bodies:?}");
+        assert!(session.round().chain().unwrap().is_gone(2) && session.tally().rollbacks > 0);
+        let scores = session.round().scores();
+        assert!(scores[2] < scores[0] && scores[0] == scores[1], "{scores:?}");
+    }
+}
+
+#[test]
+fn a_bot_goes_on_with_the_line_of_one_who_left_and_takes_a_change() {
+    let mut game = chain(ROUGH);
+    game.deed = |_, _| None;
+    game.leaving = vec![(1, 1000)];
+    game.play();
+    game.check();
+    let left = game.sessions[0].round();
+    assert_eq!((bodies(left)[1].0, left.offer(1)), (Some(1), None));
+}
+
+#[test]
+fn a_match_of_the_whole_scene_of_the_food_chain_is_the_same_for_all() {
+    let time = ("game.time".to_owned(), "2".to_owned());
+    let start = Round::new(&Scenario::parse(&food_chain::text(4), &[time]).unwrap()).unwrap();
+    let mut game = Match::of(start, 2.0, Pacing::USUAL, ROUGH, 8);
+    game.deed = |member, frame| (frame == 10 + member as u32).then_some(Deed::Divide);
+    game.play();
+    game.check();
 }
 
 #[test]

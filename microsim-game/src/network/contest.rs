@@ -5,6 +5,7 @@ use super::plan::{Plan, round_of};
 use super::session::Session;
 use super::told::Told;
 use super::transport::{Member, Transport};
+use crate::rules::food_chain::Deed;
 use crate::words::{self, Key};
 use microsim_core::Intent;
 use std::time::Duration;
@@ -21,6 +22,8 @@ pub struct Match {
     names: Vec<String>,
     heard: Vec<bool>,
     left: Vec<Option<u32>>,
+    /// What this player does once, in the next frame.
+    deed: Option<Deed>,
     /// When others were called last, ms.
     pub(super) called: u32,
 }
@@ -47,7 +50,7 @@ impl Match {
     fn of(start: Start, session: Session, called: u32) -> Self {
         let seats = start.seats.len();
         let names = start.seats.iter().map(|&member| numbered(member)).collect();
-        Self { start, session, names, heard: vec![false; seats], left: vec![None; seats], called }
+        Self { start, session, names, heard: vec![false; seats], left: vec![None; seats], deed: None, called }
     }
 
     pub(super) fn receive(&mut self, from: Member, packet: &[u8], now: u32) {
@@ -112,10 +115,16 @@ impl Match {
         }
     }
 
+    /// What this player does in the next frame beside what it tells its cell.
+    pub fn act(&mut self, deed: Deed) {
+        self.deed = Some(deed);
+    }
+
     /// One frame, with what this player tells its cell. Returns whether one was taken.
     pub(super) fn advance(&mut self, transport: &mut dyn Transport, intent: Intent, now: u32) -> bool {
         let size = self.session.round().world().config().size;
-        let is_taken = self.session.advance(Told::new(intent, size));
+        let is_taken = self.session.advance(Told::new(intent, size).doing(self.deed));
+        self.deed = self.deed.filter(|_| !is_taken);
         let to_players = self.session.packets(now);
         let mut packets = self.session.guest_packets(now);
         packets.extend(to_players.into_iter().map(|(seat, packet)| (self.member(seat), packet)));

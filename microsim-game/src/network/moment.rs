@@ -1,7 +1,10 @@
 //! A moment of a match, and what it took to get there.
 
+use super::told::Told;
 use crate::rules::bot::{Bot, Policy};
+use crate::rules::food_chain::Deed;
 use crate::rules::round::Round;
+use microsim_core::Intent;
 
 /// What going back cost, and what was sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,6 +37,33 @@ impl Moment {
     pub(super) fn new(round: Round) -> Self {
         let bots = (0..round.players().count()).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
         Self { round, bots }
+    }
+
+    /// A frame of so many steps, with what each player tells its cell; `seen` is shown every step. A bot takes the first change that
+    /// it is offered.
+    pub(super) fn take(&mut self, told: &[Told], steps: u32, mut seen: impl FnMut(&Round)) {
+        for (player, told) in told.iter().enumerate() {
+            let deed = if *told == Told::BOT { Some(Deed::Choose(0)) } else { told.deed() };
+            deed.into_iter().for_each(|deed| self.round.act(player, deed));
+        }
+        for _ in 0..steps {
+            if self.round.is_over() {
+                return;
+            }
+            let intents = self.intents(told);
+            self.round.step_all(&intents);
+            seen(&self.round);
+        }
+    }
+
+    fn intents(&mut self, told: &[Told]) -> Vec<Intent> {
+        let world = self.round.world();
+        let players = told.iter().zip(self.round.players()).zip(&mut self.bots);
+        let intent = |((told, cell), bot): ((&Told, _), &mut Bot)| match *told {
+            Told::BOT => bot.intent(world, cell),
+            told => told.intent(world.config().size),
+        };
+        players.map(intent).collect()
     }
 }
 

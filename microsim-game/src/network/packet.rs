@@ -11,8 +11,8 @@ const LONGEST: usize = 8192;
 pub(super) const LONGEST_RUN: usize = 64;
 pub(super) const LONGEST_HISTORY: usize = 256;
 
-/// No match is that long, frames.
-const LAST_FRAME: u32 = 1 << 14;
+/// No match is that long, frames: an hour has 216,000 of them at most.
+const LAST_FRAME: u32 = 1 << 18;
 
 /// Inputs of one player for frames that follow each other.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,8 +1,10 @@
 //! What is played in a match: the first member of a room chooses it.
 
 use super::pacing::Pacing;
+use crate::rules::food_chain;
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
+use crate::rules::verdict::verdict;
 use crate::words::Key;
 use microsim_core::scenario::Scenario;
 use serde::{Deserialize, Serialize};
@@ -24,6 +26,8 @@ pub enum Way {
     Versus,
     /// The same for the sum of the points.
     Together,
+    /// The food chain: whose line lives longest.
+    FoodChain,
 }
 
 /// Frames that are exchanged in a second.
@@ -38,30 +42,33 @@ pub enum FrameRate {
 
 impl Way {
     /// All ways.
-    pub const ALL: [Self; 2] = [Self::Versus, Self::Together];
+    pub const ALL: [Self; 3] = [Self::Versus, Self::Together, Self::FoodChain];
 
     /// What players read.
     #[must_use]
     pub fn label(self) -> Key {
-        self.rules().label()
+        match self {
+            Self::Versus => TwoPlayers::Versus.label(),
+            Self::Together => TwoPlayers::Together.label(),
+            Self::FoodChain => Key::TitleFoodChain,
+        }
     }
 
     /// What the status says of the points so far.
     #[must_use]
     pub fn summary(self, round: &Round) -> String {
-        self.rules().summary(&round.scores())
+        let way = if self == Self::Together { TwoPlayers::Together } else { TwoPlayers::Versus };
+        way.summary(&round.scores())
     }
 
     /// What the end says.
     #[must_use]
     pub fn verdict(self, round: &Round, names: &[String]) -> String {
-        self.rules().verdict(&round.scores(), names)
-    }
-
-    fn rules(self) -> TwoPlayers {
+        let scores = round.scores();
         match self {
-            Self::Versus => TwoPlayers::Versus,
-            Self::Together => TwoPlayers::Together,
+            Self::Versus => TwoPlayers::Versus.verdict(&scores, names),
+            Self::Together => TwoPlayers::Together.verdict(&scores, names),
+            Self::FoodChain => verdict([Key::ChainWins, Key::ChainDraw, Key::ChainDrawBest], &scores, names),
         }
     }
 }
@@ -87,8 +94,26 @@ impl FrameRate {
 pub(super) fn round_of(way: Way, players: usize, seed: u64) -> Result<Round, String> {
     let text = match way {
         Way::Versus | Way::Together => two_players::text(players),
+        Way::FoodChain => food_chain::text(players),
     };
     let mut scenario = Scenario::parse(&text, &[]).map_err(|problems| problems.to_string())?;
     scenario.set_seed(seed);
     Round::new(&scenario)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_way_has_a_round_of_two_to_four_and_a_verdict() {
+        let names = ["Ada", "Ben", "Cleo", "Dan"].map(str::to_owned);
+        for way in Way::ALL {
+            for players in 2..=4 {
+                let round = round_of(way, players, 1).unwrap();
+                assert_eq!((round.players().count(), round.chain().is_some()), (players, way == Way::FoodChain));
+                assert!(!way.verdict(&round, &names).is_empty() && !way.summary(&round).is_empty());
+            }
+        }
+    }
 }

@@ -13,7 +13,6 @@ use super::transport::Member;
 use crate::rules::referee::Gain;
 use crate::rules::round::Round;
 use crate::sound::Cue;
-use microsim_core::Intent;
 use std::time::Duration;
 
 /// Frames in which one frame may be left out to wait for a slower player.
@@ -248,26 +247,11 @@ impl Session {
         heard.clear();
         gains.clear();
         self.kept[(*frame % self.pacing.kept()) as usize].clone_from(now);
-        let size = now.round.world().config().size;
         let told: Vec<Told> = tracks.iter_mut().map(|track| track.act(*frame)).collect();
-        let cells: Vec<_> = now.round.players().collect();
-        for _ in 0..self.pacing.steps {
-            if now.round.is_over() {
-                break;
-            }
-            let world = now.round.world();
-            let players = told.iter().zip(&cells).zip(&mut now.bots);
-            let intents: Vec<Intent> = players
-                .map(
-                    |((told, cell), bot)| {
-                        if *told == Told::BOT { bot.intent(world, *cell) } else { told.intent(size) }
-                    },
-                )
-                .collect();
-            now.round.step_all(&intents);
-            heard.extend(now.round.heard());
-            gains.extend(now.round.gains());
-        }
+        now.take(&told, self.pacing.steps, |round| {
+            heard.extend(round.heard());
+            gains.extend(round.gains());
+        });
         *frame += 1;
         self.taken += 1;
         if now.round.is_over() {

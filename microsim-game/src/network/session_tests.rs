@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::network::plan::{Way, round_of};
+use microsim_core::Intent;
 use microsim_core::glam::Vec2;
 
 /// A match of three, as one of them takes part.

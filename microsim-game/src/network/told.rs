@@ -1,5 +1,6 @@
 //! What a player tells a cell in a frame, in five bytes.
 
+use crate::rules::food_chain::Deed;
 use microsim_core::Intent;
 use microsim_core::glam::Vec2;
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,10 @@ const STEPS: f32 = 65535.0;
 const GOES: u8 = 1;
 const DIGESTS: u8 = 2;
 const BOT: u8 = 4;
+/// From this bit on, what it does in a food chain: takes the first, second or third change, or divides.
+const DEED: u32 = 3;
+const CHANGES: u8 = 3;
+const DIVIDE: u8 = 4;
 
 /// An intent as it is sent: all players act on these bytes, and so on the same numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,6 +36,28 @@ impl Told {
         Self([x[0], x[1], y[0], y[1], digests | GOES])
     }
 
+    /// The same with what is done once, in this frame.
+    #[must_use]
+    pub fn doing(mut self, deed: Option<Deed>) -> Self {
+        let code = match deed {
+            None => 0,
+            Some(Deed::Choose(place)) => 1 + (place as u8).min(CHANGES - 1),
+            Some(Deed::Divide) => DIVIDE,
+        };
+        self.0[4] = self.0[4] & ((1 << DEED) - 1) | code << DEED;
+        self
+    }
+
+    /// What is done in this frame.
+    #[must_use]
+    pub fn deed(self) -> Option<Deed> {
+        match self.0[4] >> DEED {
+            0 => None,
+            code @ 1..=CHANGES => Some(Deed::Choose(usize::from(code) - 1)),
+            _ => Some(Deed::Divide),
+        }
+    }
+
     /// The intent, on a slide of this size.
     #[must_use]
     pub fn intent(self, size: Vec2) -> Intent {
@@ -44,7 +71,8 @@ impl Told {
     /// Whether [`Told::new`] makes such bytes.
     pub(super) fn is_sound(self) -> bool {
         let Self([a, b, c, d, flags]) = self;
-        self == Self::BOT || flags <= GOES | DIGESTS && (flags & GOES != 0 || [a, b, c, d] == [0; 4])
+        let is_known = flags & BOT == 0 && flags >> DEED <= DIVIDE;
+        self == Self::BOT || is_known && (flags & GOES != 0 || [a, b, c, d] == [0; 4])
     }
 }
 
@@ -64,6 +92,21 @@ mod tests {
         }
         let rest = Told::new(Intent::REST, size);
         assert!(rest.is_sound() && rest.intent(size) == Intent::REST.digesting(false));
+    }
+
+    #[test]
+    fn a_deed_comes_back_beside_the_intent() {
+        let size = Vec2::new(144.0, 81.0);
+        let told = Told::new(Intent::toward(Vec2::ONE).unwrap().digesting(true), size);
+        for deed in [None, Some(Deed::Divide)].into_iter().chain((0..3).map(|place| Some(Deed::Choose(place)))) {
+            let doing = told.doing(deed);
+            assert!(doing.is_sound() && doing.deed() == deed && doing.intent(size) == told.intent(size));
+            assert_eq!(doing.doing(None), told);
+        }
+        assert!(Told([0, 0, 0, 0, DIVIDE << DEED]).is_sound());
+        for flags in [(DIVIDE + 1) << DEED, 31 << DEED, BOT | DIVIDE << DEED, BOT | 1 << DEED] {
+            assert!(!Told([0, 0, 0, 0, flags]).is_sound(), "{flags}");
+        }
     }
 
     #[test]

@@ -106,9 +106,10 @@ impl Track {
         *self = Self { told, acted, known, since: takeover.since, ..Self::default() };
     }
 
-    /// What its cell is told in a frame: what is known, or the same as in the last frame that is known.
+    /// What its cell is told in a frame: what is known, or the same as in the last frame that is known, but for what is done once.
     pub(super) fn act(&mut self, frame: u32) -> Told {
-        let known = self.told.get(frame as usize).or(self.told.last()).copied().unwrap_or_default();
+        let last = || self.told.last().map(|last| last.doing(None));
+        let known = self.told.get(frame as usize).copied().or_else(last).unwrap_or_default();
         let told = if self.end.is_some_and(|end| frame >= end) { Told::BOT } else { known };
         self.acted.truncate(frame as usize);
         self.acted.push(told);
@@ -145,5 +146,21 @@ impl Track {
     /// Share of its packets that were lost, 0 to 1.
     pub(super) fn loss(&self) -> f32 {
         1.0 - (self.came as f32 / self.newest.saturating_add(1) as f32).min(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::food_chain::Deed;
+    use microsim_core::Intent;
+    use microsim_core::glam::Vec2;
+
+    #[test]
+    fn what_is_done_once_is_not_predicted_again() {
+        let mut track = Track::new(2, 2);
+        let held = Told::new(Intent::toward(Vec2::ONE).unwrap(), Vec2::splat(9.0));
+        track.push(2, held.doing(Some(Deed::Divide)));
+        assert_eq!([2, 3, 4].map(|frame| track.act(frame)), [held.doing(Some(Deed::Divide)), held, held]);
     }
 }

@@ -59,9 +59,9 @@ impl ChainBot {
 
     /// Plays a step. Returns the change that it has chosen before, if there was one to choose.
     pub fn step(&mut self, round: &mut Round) -> Option<Change> {
-        let chosen = round.offer().map(|offer| self.choice(round, offer));
+        let chosen = round.offer(0).map(|offer| self.choice(round, offer));
         if let Some(change) = chosen {
-            round.choose(change);
+            round.choose(0, change);
         }
         self.act(round);
         chosen
@@ -97,10 +97,10 @@ impl ChainBot {
     /// Plays a copy of a round on for some time; later changes are by chance.
     fn play_on(&mut self, round: &Round, change: Change) -> (f64, u32) {
         let (mut round, begin) = (round.clone(), round.world().time());
-        round.change(change);
+        round.change(0, change);
         while !round.is_over() && round.world().time() < begin + TRIAL {
-            if let Some(offer) = round.offer() {
-                round.choose(self.any(offer));
+            if let Some(offer) = round.offer(0) {
+                round.choose(0, self.any(offer));
             }
             self.act(&mut round);
         }
@@ -218,7 +218,7 @@ mod tests {
         let mut bot = ChainBot::new(skill, &round);
         let mut choices = Vec::new();
         while !round.is_over() && round.world().time() < longest {
-            let offer = round.offer();
+            let offer = round.offer(0);
             choices.extend(offer.zip(bot.step(&mut round)));
             if round.world().step_index().is_multiple_of(60) {
                 assert_eq!(round.world().census().leaks, 0, "{skill:?}, seed {seed}, {} s", round.world().time());
@@ -248,14 +248,14 @@ mod tests {
             again.step(Intent::REST);
         }
         assert_eq!((again.mismatch(), again.world().digest()), (None, round.world().digest()));
-        assert_eq!((again.player(), again.offer(), again.name()), (round.player(), None, NAME));
+        assert_eq!((again.player(), again.offer(0), again.name()), (round.player(), None, NAME));
     }
 
     #[test]
     fn a_sister_is_a_second_life() {
         let mut round = room(7.0, "");
         let first = round.player();
-        round.divide();
+        round.divide(0);
         while !round.is_over() && round.player() == first && round.world().time() < 60.0 {
             round.step(Intent::REST);
         }
@@ -273,7 +273,7 @@ mod tests {
         let own = |round: &Round| round.world().view().organisms().map(cytoplasm).sum::<u32>();
         let rest = |a: &mut Round, b: &mut Round| [a, b].into_iter().for_each(|round| round.step(Intent::REST));
         let (mut resting, mut dividing) = (room(7.0, ""), room(7.0, ""));
-        dividing.divide();
+        dividing.divide(0);
         while dividing.world().organisms().count() == 1 && dividing.world().time() < 20.0 {
             rest(&mut resting, &mut dividing);
         }
@@ -348,11 +348,11 @@ mod tests {
         let mut bot = ChainBot::new(Skill::Survivor, &round);
         let mut found = Vec::new();
         while !round.is_over() && round.world().time() < LONGEST {
-            if let Some(offer) = round.offer() {
+            if let Some(offer) = round.offer(0) {
                 let worths = Change::ALL.map(|change| bot.worth(&round, change));
                 println!("seed {seed}, {:.0} s: {worths:.0?}", round.world().time());
                 found.push(worths);
-                round.choose(bot.any(offer));
+                round.choose(0, bot.any(offer));
             }
             bot.act(&mut round);
         }

@@ -19,8 +19,10 @@ pub mod path;
 pub mod prey;
 pub mod referee;
 pub mod round;
+pub mod seating;
 pub mod slide_bot;
 pub mod two_players;
+pub mod verdict;
 
 #[cfg(test)]
 mod tests;

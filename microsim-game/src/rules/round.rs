@@ -2,7 +2,7 @@
 
 use super::attempt::Attempt;
 use super::food_chain::change::Change;
-use super::food_chain::{self, Fate, FoodChain};
+use super::food_chain::{self, Deed, Fate, FoodChain};
 use super::referee::{Gain, KindScore, Referee};
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
@@ -42,7 +42,7 @@ struct Seat {
 pub struct RoundResult {
     /// Points.
     pub score: u32,
-    /// Points of all who played, the first one's first.
+    /// [`Round::scores`].
     pub scores: Vec<u32>,
     /// Time of the round, s.
     pub time: f32,
@@ -63,7 +63,7 @@ pub struct RoundResult {
 /// How a food chain ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Life {
-    /// How long the player's line lived, s.
+    /// How long the first player's line lived, s.
     pub time: f32,
     /// How it ended; unknown in a replay.
     pub fate: Option<Fate>,
@@ -113,8 +113,10 @@ impl Round {
             run.named.iter().find(|(known, _)| *known == name).map(|(_, cell)| *cell)
         });
         let cells = std::iter::once(player).chain(others);
-        let seats = cells.map(|cell| Seat { cell, referee: Referee::new(game.clone(), cell, &run.world) }).collect();
-        let chain = (name == food_chain::NAME).then(|| FoodChain::new(&run.world, player));
+        let cells: Vec<OrganismId> = cells.collect();
+        let chain = (name == food_chain::NAME).then(|| FoodChain::new(&run.world, &cells));
+        let seat = |cell| Seat { cell, referee: Referee::new(game.clone(), cell, &run.world) };
+        let seats = cells.into_iter().map(seat).collect();
         Ok(Self { name: name.to_owned(), course, seats, attempt, chain })
     }
 
@@ -128,13 +130,15 @@ impl Round {
         if self.is_over() {
             return;
         }
+        let cells: Vec<OrganismId> = self.players().collect();
         match &mut self.course {
             Course::Live { run, recorder, record } => {
                 if let Some(chain) = &mut self.chain {
-                    chain.before_step(&mut run.world, self.seats[0].cell);
+                    chain.before_step(&mut run.world, &cells);
                 }
                 let mut inputs = Inputs::new();
-                self.seats.iter().zip(intents).for_each(|(seat, intent)| inputs.set(seat.cell, *intent));
+                // What is told to a cell that is gone does nothing.
+                cells.iter().zip(intents).for_each(|(cell, intent)| inputs.set(*cell, *intent));
                 run.step(&inputs);
                 record.extend(recorder.step(&inputs, &run.world));
             }
@@ -147,36 +151,50 @@ impl Round {
             },
         }
         let world = &self.course.run().world;
-        self.seats.iter_mut().for_each(|seat| seat.referee.after_step(world));
-        let Seat { cell, referee } = &mut self.seats[0];
-        if let Some(chain) = &mut self.chain {
-            *cell = chain.after_step(world, *cell);
-            referee.follow(*cell);
+        for (player, Seat { cell, referee }) in self.seats.iter_mut().enumerate() {
+            referee.after_step(world);
+            if let Some(chain) = &mut self.chain {
+                *cell = chain.after_step(world, player, *cell);
+                referee.follow(*cell);
+            }
         }
+        let Seat { cell, referee } = &self.seats[0];
         if let Some(attempt) = &mut self.attempt {
             attempt.after_step(world.time() as f32, world.centroid(*cell), referee.kinds());
         }
     }
 
-    /// Changes the player's cell, if this change of a food chain is offered.
-    pub fn choose(&mut self, change: Change) {
-        if let (Course::Live { run, .. }, Some(chain)) = (&mut self.course, &mut self.chain) {
-            chain.choose(change, &mut run.world, self.seats[0].cell);
+    /// What a player does in a food chain, if it can: the change has to be offered, and a cell that is gone does not divide.
+    pub fn act(&mut self, player: usize, deed: Deed) {
+        match deed {
+            Deed::Choose(place) => {
+                let change = self.offer(player).and_then(|offer| offer.get(place).copied());
+                change.into_iter().for_each(|change| self.choose(player, change));
+            }
+            Deed::Divide => self.divide(player),
         }
     }
 
-    /// Changes the player's cell, whatever a food chain offers: a trial of what a change is worth.
-    pub(super) fn change(&mut self, change: Change) {
-        if let (Course::Live { run, .. }, Some(chain)) = (&mut self.course, &mut self.chain) {
-            chain.change(change, &mut run.world, self.seats[0].cell);
+    /// Changes a player's cell, if this change of a food chain is offered.
+    pub fn choose(&mut self, player: usize, change: Change) {
+        if self.offer(player).is_some_and(|offer| offer.contains(&change)) {
+            self.change(player, change);
         }
     }
 
-    /// Divides the player's cell, in a food chain: the sister that rests is a second life.
-    pub fn divide(&mut self) {
-        if let (Course::Live { run, .. }, Some(_)) = (&mut self.course, &self.chain) {
+    /// Changes a player's cell, whatever a food chain offers: a trial of what a change is worth.
+    pub(super) fn change(&mut self, player: usize, change: Change) {
+        if let (Course::Live { run, .. }, Some(chain)) = (&mut self.course, &mut self.chain) {
+            chain.change(change, &mut run.world, player, self.seats[player].cell);
+        }
+    }
+
+    /// Divides a player's cell, in a food chain: the sister that rests is a second life.
+    pub fn divide(&mut self, player: usize) {
+        if let (Course::Live { run, .. }, Some(_), Some(seat)) = (&mut self.course, &self.chain, self.seats.get(player))
+        {
             // Refused if it is gone.
-            let _ = run.world.divide(self.seats[0].cell);
+            let _ = run.world.divide(seat.cell);
         }
     }
 
@@ -241,8 +259,9 @@ impl Round {
     }
 
     fn life(&self) -> Option<Life> {
-        let (world, fate) = (self.world(), self.chain.as_ref()?.fate());
-        Some(Life { time: world.time() as f32, fate, seed: world.config().seed })
+        let (world, chain) = (self.world(), self.chain.as_ref()?);
+        let time = chain.lives(world.time() as f32).next()?;
+        Some(Life { time, fate: chain.fate(0), seed: world.config().seed })
     }
 
     fn undigested(&self) -> u32 {
@@ -274,10 +293,13 @@ impl Round {
         self.seats.iter().map(|seat| seat.cell)
     }
 
-    /// Points of all who play.
+    /// Points of all who play; in a food chain how long their lines have lived, s.
     #[must_use]
     pub fn scores(&self) -> Vec<u32> {
-        self.seats.iter().map(|seat| seat.referee.score()).collect()
+        match &self.chain {
+            Some(chain) => chain.lives(self.world().time() as f32).map(|time| time as u32).collect(),
+            None => self.seats.iter().map(|seat| seat.referee.score()).collect(),
+        }
     }
 
     /// What the last step earned, whoever it was.
@@ -297,10 +319,10 @@ impl Round {
         self.chain.as_ref()
     }
 
-    /// The changes of which the player may choose one now.
+    /// The changes of which a player may choose one now.
     #[must_use]
-    pub fn offer(&self) -> Option<[Change; 3]> {
-        if self.is_replay() { None } else { self.chain.as_ref()?.offer() }
+    pub fn offer(&self, player: usize) -> Option<[Change; 3]> {
+        if self.is_replay() { None } else { self.chain.as_ref()?.offer(player) }
     }
 
     /// Score and time; of several players those of the first.

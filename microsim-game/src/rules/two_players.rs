@@ -1,6 +1,8 @@
 //! Two under glass: two cells on one slide, which is data, `games/two-under-glass.toml`. Both are scored for themselves.
 
 use super::bot::{Bot, Policy};
+use super::seating::seat;
+use super::verdict::verdict;
 use crate::words::{Key, text_with};
 
 /// Name of its scenario.
@@ -8,8 +10,9 @@ pub const NAME: &str = "two-under-glass";
 /// Its scenario.
 pub const TEXT: &str = include_str!("../../games/two-under-glass.toml");
 
-/// Where the cells of the players end in it.
+/// Where the cells of the players end in it, and those of more players: the third is beside the first, the fourth beside the second.
 const OBSTACLES: &str = "# --- What is in their way";
+const MORE: [(usize, [f32; 2]); 2] = [(3, [24.0, 66.0]), (4, [120.0, 15.0])];
 
 /// How two cells play.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,34 +63,20 @@ impl TwoPlayers {
         if self == Self::Together {
             return text_with(Key::TwoTogetherEnd, &[("points", scores.iter().sum::<u32>().into())]);
         }
-        let best = scores.iter().copied().max().unwrap_or_default();
-        let mut winners = (1..).zip(scores).filter(|(_, points)| **points == best).map(|(k, _)| k);
-        match (winners.next(), winners.next()) {
-            (Some(winner), None) => {
-                let others = (1..).zip(scores).filter(|(k, _)| *k != winner).map(|(_, points)| points.to_string());
-                let others = others.collect::<Vec<String>>().join(", ");
-                let number = || text_with(Key::TwoPlayer, &[("number", (winner as u32).into())]);
-                let name = names.get(winner - 1).cloned().unwrap_or_else(number);
-                let key = match (self, winner) {
-                    (Self::Bot, 1) => Key::TwoYouWin,
-                    (Self::Bot, _) => Key::TwoBotWins,
-                    _ => Key::TwoWins,
-                };
-                text_with(key, &[("name", (&name).into()), ("best", best.into()), ("others", (&others).into())])
-            }
-            _ if scores.iter().all(|&points| points == best) => text_with(Key::TwoDraw, &[("points", best.into())]),
-            _ => text_with(Key::TwoDrawBest, &[("points", best.into())]),
-        }
+        let is_first = scores.first() == scores.iter().max();
+        let win = match self {
+            Self::Bot if is_first => Key::TwoYouWin,
+            Self::Bot => Key::TwoBotWins,
+            _ => Key::TwoWins,
+        };
+        verdict([win, Key::TwoDraw, Key::TwoDrawBest], scores, names)
     }
 }
 
-/// The scenario for so many players, 2 to 4: the third cell is beside the first one, the fourth beside the second.
+/// The scenario for so many players, 2 to 4.
 #[must_use]
 pub fn text(players: usize) -> String {
-    let extra = [(3, [24.0, 66.0]), (4, [120.0, 15.0])].into_iter().filter(|(number, _)| *number <= players);
-    let cells = extra.map(|(k, at)| format!("[[spawn]]\nof = \"hunter\"\nname = \"player-{k}\"\nat = {at:?}\n\n"));
-    // Before all that finds a free place of its own.
-    TEXT.replacen(OBSTACLES, &(cells.collect::<String>() + OBSTACLES), 1)
+    seat(TEXT, OBSTACLES, players, "of = \"hunter\"", &MORE)
 }
 
 #[cfg(test)]

@@ -1,19 +1,23 @@
 //! A match over a network, on the screen.
 
 use super::context::AppContext;
+use super::follow::Follow;
 use super::lobby::clock;
+use super::offer::{self, Taking};
 use super::steer::{Hands, draw_prey};
-use super::{MainScreen, Next, Screen, new_seed};
+use super::{MainScreen, Next, Screen, chain_scene, new_seed};
 use crate::draw::palette::PLAYERS;
 use crate::hud::{self, Status, marks, own, places};
 use crate::input::{Action, Input, Move};
 use crate::network::contest::Match;
 use crate::platform;
+use crate::rules::food_chain::Deed;
+use crate::rules::food_chain::change::Change;
 use crate::rules::round::Round;
 use crate::store::files::PlayerFolder;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
-use microsim_core::Intent;
+use microsim_core::{Intent, OrganismId};
 use std::time::Duration;
 
 /// Time for which the player is told what to do, s.
@@ -39,7 +43,12 @@ const WORLD: &str = "desync.snapshot";
 pub(super) struct Contest {
     game: Match,
     viewer: Viewer,
+    /// In the food chain the camera follows a cell; else the whole slide is seen.
+    follow: Option<Follow>,
     hands: Hands,
+    taking: Taking,
+    /// What is written on the key that divides the cell.
+    divide_key: String,
     gains: marks::Gains,
     /// Frames that were waited for others.
     waiting: u32,
@@ -53,11 +62,44 @@ pub(super) struct Contest {
 
 impl Contest {
     pub(super) fn new(game: Match, context: &AppContext) -> Self {
-        let (world, steps) = (game.session().round().world(), game.session().steps());
-        let viewer = Viewer::with_long_steps(world, first_view(world, None, 1.0, context.pen.screen()), steps);
-        let (hands, gains) = (Hands::default(), marks::Gains::default());
-        let (cut_since, retries_at) = (None, 0.0);
-        Self { game, viewer, hands, gains, waiting: 0, leaves_until: 0.0, shows_net: false, cut_since, retries_at }
+        let (round, screen) = (game.session().round(), context.pen.screen());
+        let followed = seen(&game).filter(|_| round.chain().is_some());
+        let (follow, around) = followed.map(|cell| Follow::new(round, cell, screen)).unzip();
+        let camera = around.unwrap_or_else(|| first_view(round.world(), None, 1.0, screen));
+        Self {
+            viewer: Viewer::with_long_steps(round.world(), camera, game.session().steps()),
+            follow,
+            hands: Hands::default(),
+            taking: Taking::default(),
+            divide_key: context.settings.keys.label(Action::Divide),
+            gains: marks::Gains::default(),
+            waiting: 0,
+            leaves_until: 0.0,
+            shows_net: false,
+            cut_since: None,
+            retries_at: 0.0,
+            game,
+        }
+    }
+
+    /// The changes of which the own cell may take one now.
+    fn offer(&self) -> Option<[Change; 3]> {
+        living(&self.game).and_then(|own| self.game.session().round().offer(own))
+    }
+
+    /// What the player does in a food chain besides crawling; what it clicks at for that is taken out of the input.
+    fn act(&mut self, input: &mut Input, context: &AppContext) {
+        let offer = self.offer();
+        let chosen = self.taking.take(input, &context.pen, offer).map(Deed::Choose);
+        let divides = self.divides() && input.presses(Action::Divide);
+        chosen.or(divides.then_some(Deed::Divide)).into_iter().for_each(|deed| self.game.act(deed));
+    }
+
+    fn look(&mut self, input: &Input, context: &AppContext) {
+        if let (Some(follow), Some(cell)) = (&mut self.follow, seen(&self.game)) {
+            let is_steering = self.hands.is_crawling && living(&self.game).is_some();
+            follow.look(&mut self.viewer, (self.game.session().round(), cell), (input, is_steering), context);
+        }
     }
 
     fn run(&mut self, input: &Input, context: &mut AppContext) {
@@ -145,9 +187,13 @@ impl Contest {
         } else {
             Key::MatchWatch
         };
-        let time = self.game.session().round().world().time();
-        match self.game.own() {
-            Some(own) if key == Key::MatchWatch => (time < ADVICE_TIME).then(|| player_advice(own)),
+        let round = self.game.session().round();
+        let time = round.world().time();
+        match living(&self.game) {
+            Some(own) if key == Key::MatchWatch && time < ADVICE_TIME => Some(player_advice(own)),
+            Some(_) if key == Key::MatchWatch => round
+                .chain()
+                .and_then(|_| chain_scene::advice(time, &self.divide_key, platform::covered_height() > 0.0)),
             _ => Some(words::text(key).to_owned()),
         }
     }
@@ -191,7 +237,10 @@ impl Screen for Contest {
         if let Some(since) = self.cut_since {
             return self.come_back(since, context);
         }
-        self.run(input, context);
+        let mut input = input.clone();
+        self.act(&mut input, context);
+        self.run(&input, context);
+        self.look(&input, context);
         let over = is_alone.then(|| words::text(Key::MatchOver).to_owned());
         let Some(news) = self.outcome(context).or(over) else { return Next::Stay };
         if let Some(room) = &mut context.room {
@@ -216,22 +265,35 @@ impl Screen for Contest {
         }
         places::draw_food(pen, &style, view);
         let mut taken = marks::MarkLayout::default();
-        self.gains.draw(pen, &style, &mut taken);
+        if round.chain().is_none() {
+            self.gains.draw(pen, &style, &mut taken);
+        }
+        let looked_at = seen(&self.game);
+        looked_at.into_iter().for_each(|cell| chain_scene::draw(pen, &style, round, view, cell));
         if let Some(cell) = self.game.own().and_then(|own| round.players().nth(own)) {
             draw_prey(pen, &style, &mut taken, round, view, cell);
         }
-        let referee = round.referee();
-        let score = self.game.plan().way.summary(round);
         let note = if self.shows_net { self.net() } else { String::new() };
-        let time = [referee.time_left(), referee.game().time];
+        let of_points = || {
+            let referee = round.referee();
+            (self.game.plan().way.summary(round), [referee.time_left(), referee.game().time])
+        };
+        let life = looked_at.and_then(|cell| chain_scene::status(round, cell));
+        let (score, time) = life.unwrap_or_else(of_points);
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
-        if let Some(advice) = advice {
-            hud::draw_advice(pen, &advice, platform::covered_height());
+        match (self.offer(), advice) {
+            (Some(offered), _) => offer::draw(pen, offered),
+            (None, Some(advice)) => hud::draw_advice(pen, &advice, platform::covered_height()),
+            (None, None) => {}
         }
     }
 
     fn is_scene(&self) -> bool {
         true
+    }
+
+    fn divides(&self) -> bool {
+        living(&self.game).is_some() && self.game.session().round().chain().is_some()
     }
 
     fn name(&self) -> String {
@@ -242,6 +304,20 @@ impl Screen for Contest {
     fn is_at_stake(&self) -> bool {
         true
     }
+}
+
+/// The number of this player, while a cell of its line lives.
+fn living(game: &Match) -> Option<usize> {
+    let chain = game.session().round().chain();
+    game.own().filter(|own| chain.is_none_or(|chain| !chain.is_gone(*own)))
+}
+
+/// The cell of this player, or of the first one who lives.
+fn seen(game: &Match) -> Option<OrganismId> {
+    let round = game.session().round();
+    let is_there = |cell: &OrganismId| round.world().view().organism(*cell).is_some();
+    let own = living(game).and_then(|own| round.players().nth(own));
+    own.or_else(|| round.players().find(is_there))
 }
 
 /// Keeps the round of a match that came apart, as it was at a step, and gives it to the player. Says so.

@@ -2,17 +2,20 @@
 //! [`stack`] builds it.
 
 mod article;
+mod chain_scene;
 mod choose;
 mod contest;
 pub mod context;
 mod end;
 mod end_menu;
+mod follow;
 mod food_chain;
 mod food_chain_end;
 mod guide;
 mod join;
 mod keys;
 mod lobby;
+mod offer;
 mod page;
 mod pause;
 mod photo;

@@ -1,17 +1,18 @@
 //! The game, 90 seconds to eat, and slides.
 
+use super::chain_scene;
 use super::context::AppContext;
-use super::steer::{Hands, draw_prey, targets_of};
+use super::follow::Follow;
+use super::steer::{Hands, draw_prey, held_to_crawl, targets_of};
 use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
 use crate::guide;
-use crate::hud::{self, Status, food_chain, marks, own, places, tint};
+use crate::hud::{self, Status, marks, own, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::attempt::Attempt;
 use crate::rules::bot::Bot;
-use crate::rules::food_chain::change::is_own;
-use crate::rules::food_chain::{NAME, threats_and_victims};
+use crate::rules::food_chain::NAME;
 use crate::rules::game::GameChoice;
 use crate::rules::hint::Hints;
 use crate::rules::round::Round;
@@ -25,15 +26,11 @@ use crate::words::{self, Key};
 use microsim_core::View;
 use microsim_core::replay::Replay;
 
-/// Units that are seen from bottom to top at first; more as the cell grows.
-const VIEW: f32 = 62.0;
 /// Time for which the player is told the task of a slide, and what to do, s.
 const TASK_TIME: f64 = 9.0;
 /// How strong the tint of a chemical is at most.
 const SCENT: f32 = 0.6;
 const ADVICE_TIME: f64 = 7.0;
-/// Time until the cell starves that fills the bar, s.
-const FULL_RESERVE: f32 = 60.0;
 
 /// A round on the screen.
 #[derive(Debug)]
@@ -45,9 +42,7 @@ pub(super) struct Play {
     gains: marks::Gains,
     /// What was heard in this frame.
     heard: Vec<Cue>,
-    /// Area of the cell at the beginning, and what the camera has made of its growth.
-    first_area: f32,
-    grown: f32,
+    follow: Follow,
     hands: Hands,
     /// How two cells play, if it is a round of two, and who steers the second one in place of a player.
     two: Option<TwoPlayers>,
@@ -110,9 +105,9 @@ impl Play {
             Paused::TwoPlayers(way) => way,
             _ => TwoPlayers::Versus,
         });
-        let followed = Some(round.player()).filter(|_| two.is_none());
-        let camera = first_view(world, followed, VIEW, context.pen.screen());
-        let first_area = world.view().organism(round.player()).map_or(1.0, |cell| cell.cytoplasm_area());
+        let screen = context.pen.screen();
+        let (follow, around) = Follow::new(&round, round.player(), screen);
+        let camera = if two.is_some() { first_view(world, None, 1.0, screen) } else { around };
         let viewer = Viewer::new(world, camera);
         Self {
             bot: two.and_then(|way| way.bot(world.config().seed)),
@@ -121,8 +116,7 @@ impl Play {
             viewer,
             gains: marks::Gains::default(),
             heard: Vec::new(),
-            first_area,
-            grown: 1.0,
+            follow,
             hands: Hands::default(),
             two,
             divide_key: context.settings.keys.label(Action::Divide),
@@ -155,36 +149,13 @@ impl Play {
         heard.for_each(|(_, name)| context.find(name));
     }
 
-    /// The camera follows the cell, and steps back as it grows. Of two cells it shows the whole slide.
+    /// The camera follows the cell; of two cells it shows the whole slide.
     fn look(&mut self, input: &Input, context: &AppContext) {
         if self.two.is_some() {
             return;
         }
-        let cell = self.round.world().view().organism(self.round.player());
-        let wanted = cell.map_or(1.0, |cell| (cell.cytoplasm_area() / self.first_area).max(0.1).powf(0.3));
-        let step = self.grown + (wanted - self.grown) * (1.0 - (-1.5 * context.pace.elapsed).exp());
-        self.viewer.camera.zoom(self.grown / step, 0.5 * context.pen.screen());
-        self.grown = step;
-        let at = self.viewer.place_of(self.round.world(), Some(self.round.player()));
-        let looks_ahead = self.hands.is_crawling && !self.round.is_replay() && context.motion().is_some();
-        let cursor = looks_ahead.then_some(input.cursor);
-        self.viewer.look(input.zoom(), input.wheel, at, cursor, context.pace.elapsed);
-    }
-
-    /// What is new in the food chain is explained when it is there first.
-    fn chain_advice(&self, has_buttons: bool) -> Option<String> {
-        let time = self.round.world().time();
-        let divide = if has_buttons { words::text(Key::HintChainButton) } else { &self.divide_key };
-        let what = held_to_crawl(has_buttons);
-        let of = |key| words::text(key).to_owned();
-        let parts = [
-            (0.0, words::text_with(Key::HintChainCrawl, &[("what", what.into())])),
-            (6.0, of(Key::HintChainClock)),
-            (22.0, of(Key::HintChainRivals)),
-            (30.0, of(Key::HintChainGiant)),
-            (38.0, words::text_with(Key::HintChainDivide, &[("key", divide.into())])),
-        ];
-        parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
+        let steered = (input, self.hands.is_crawling);
+        self.follow.look(&mut self.viewer, (&self.round, self.round.player()), steered, context);
     }
 
     fn draw_marks(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>, hints: &Hints) {
@@ -198,7 +169,7 @@ impl Play {
         if let Some(attempt) = self.round.attempt() {
             places::draw_places(pen, style, attempt.goals());
         }
-        self.draw_chain(pen, style, view);
+        chain_scene::draw(pen, style, &self.round, view, self.round.player());
         marks::draw_held(pen, style, &mut taken, &hints.held);
         if self.round.chain().is_none() {
             self.gains.draw(pen, style, &mut taken);
@@ -206,17 +177,6 @@ impl Play {
         marks::draw_targets(pen, style, &mut taken, &targets_of(&self.round, view, self.round.player(), hints));
         for other in self.round.players().skip(1) {
             draw_prey(pen, style, &mut taken, &self.round, view, other);
-        }
-    }
-
-    fn draw_chain(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>) {
-        let (Some(chain), player) = (self.round.chain(), self.round.player()) else { return };
-        food_chain::draw_others(pen, style, &threats_and_victims(view, player));
-        if let Some(cell) = view.organism(player) {
-            food_chain::draw_changes(pen, style, cell);
-        }
-        if chain.is_bitten(player) {
-            food_chain::draw_bitten(pen);
         }
     }
 
@@ -235,18 +195,9 @@ impl Play {
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
         };
-        let (score, time) = self.life().unwrap_or_else(of_game);
+        let life = chain_scene::status(&self.round, self.round.player()).filter(|_| self.two.is_none());
+        let (score, time) = life.unwrap_or_else(of_game);
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note });
-    }
-
-    /// What the status says of a food chain: how long the line has lived, and time until the cell starves.
-    fn life(&self) -> Option<(String, [f32; 2])> {
-        let (chain, world) = (self.round.chain()?, self.round.world());
-        let cell = world.view().organism(self.round.player())?;
-        let sisters = world.view().organisms().filter(|other| is_own(*other)).count().saturating_sub(1);
-        let time = world.time() as f32;
-        let reserve = chain.reserve(cell, time).min(FULL_RESERVE);
-        Some((food_chain::summary(time, chain.size(cell), sisters), [reserve, FULL_RESERVE]))
     }
 
     /// The task of a slide, in the language of the player.
@@ -261,7 +212,7 @@ impl Play {
         if self.round.is_replay() {
             None
         } else if self.round.chain().is_some() {
-            self.chain_advice(has_buttons)
+            chain_scene::advice(time, &self.divide_key, has_buttons)
         } else if let Some(attempt) = self.round.attempt() {
             let what = held_to_crawl(has_buttons);
             let task = self.task(attempt);
@@ -277,11 +228,6 @@ impl Play {
             None
         }
     }
-}
-
-/// What the player holds to crawl.
-fn held_to_crawl(has_buttons: bool) -> &'static str {
-    if has_buttons { words::text(Key::HintFinger) } else { words::text(Key::HintMouse) }
 }
 
 /// What is written on the key or the button that digests, if the player has to hold one.
@@ -305,10 +251,10 @@ impl Screen for Play {
             return self.played.restart();
         }
         if let Some(change) = context.chosen.take() {
-            self.round.choose(change);
+            self.round.choose(0, change);
         }
         if input.presses(Action::Divide) {
-            self.round.divide();
+            self.round.divide(0);
         }
         self.run(input, context);
         context.play(&self.heard);
@@ -322,7 +268,7 @@ impl Screen for Play {
                 (None, false, None) => Overlay::End(result, self.played),
             });
         }
-        self.round.offer().map_or(Next::Stay, |offer| Next::Open(Overlay::Choose(offer, self.played)))
+        self.round.offer(0).map_or(Next::Stay, |offer| Next::Open(Overlay::Choose(offer, self.played)))
     }
 
     fn draw(&mut self, context: &mut AppContext) {

@@ -8,6 +8,7 @@ use crate::rules::hint::{Hints, PreyTarget};
 use crate::rules::round::Round;
 use crate::rules::two_players::TwoPlayers;
 use crate::ui::pen::Pen;
+use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 use microsim_core::{Intent, OrganismId, View};
 
@@ -73,6 +74,11 @@ fn by_keys(input: &Input, round: &Round, player: usize) -> Option<Vec2> {
     let cell = round.world().view().organism(round.players().nth(player)?)?;
     let way = STEERED * Vec2::new(input.steer.x, -input.steer.y);
     (way != Vec2::ZERO).then(|| cell.centroid() + way)
+}
+
+/// What the player holds to crawl.
+pub(super) fn held_to_crawl(has_buttons: bool) -> &'static str {
+    if has_buttons { words::text(Key::HintFinger) } else { words::text(Key::HintMouse) }
 }
 
 /// Targets of one who plays, but for those to which another one is nearer: each is marked once.

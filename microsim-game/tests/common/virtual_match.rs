@@ -7,6 +7,7 @@ use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
 use microsim_game::network::transport::Member;
 use microsim_game::rules::bot::{Bot, Policy};
+use microsim_game::rules::food_chain::Deed;
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use std::ops::Range;
@@ -61,6 +62,8 @@ pub(crate) struct Match {
     pub(crate) speed: fn(usize, f32) -> f32,
     /// Time that a frame costs each member, ms.
     pub(crate) cost: [f32; 4],
+    /// What a member does besides steering, in a frame that it has taken.
+    pub(crate) deed: fn(usize, u32) -> Option<Deed>,
     /// When players leave, ms.
     pub(crate) leaving: Vec<(usize, u32)>,
     /// When members come, or come back, ms: they watch until a bot's cell is theirs.
@@ -69,6 +72,8 @@ pub(crate) struct Match {
     pacing: Pacing,
     weather: Weather,
     seconds: f32,
+    /// The round at its beginning.
+    start: Round,
     letters: Vec<Letter>,
     bots: Vec<(Bot, Intent)>,
     rng: Rng,
@@ -89,7 +94,12 @@ pub(crate) fn round(players: usize, seconds: f32) -> Round {
 
 impl Match {
     pub(crate) fn new(players: usize, seconds: f32, pacing: Pacing, weather: Weather, seed: u64) -> Self {
-        let start = round(players, seconds);
+        Self::of(round(players, seconds), seconds, pacing, weather, seed)
+    }
+
+    /// A match of a round at its beginning, which takes about so long.
+    pub(crate) fn of(start: Round, seconds: f32, pacing: Pacing, weather: Weather, seed: u64) -> Self {
+        let players = start.players().count();
         Self {
             sessions: (0..players).map(|own| Session::new(start.clone(), own, pacing)).collect(),
             frame_ms: Vec::new(),
@@ -97,12 +107,14 @@ impl Match {
             cuts: Vec::new(),
             speed: |_, _| 1.0,
             cost: [0.0; 4],
+            deed: |_, _| None,
             leaving: Vec::new(),
             coming: Vec::new(),
             players,
             pacing,
             weather,
             seconds,
+            start,
             letters: Vec::new(),
             bots: (0..4).map(|k| (Bot::new(Policy::Greedy, 50 + k as u64), Intent::REST)).collect(),
             rng: Rng::new(seed, 0),
@@ -131,7 +143,7 @@ impl Match {
 
     /// A member begins to watch.
     fn come(&mut self, member: usize) {
-        let mut session = Session::watch(round(self.players, self.seconds), member as Member, self.pacing);
+        let mut session = Session::watch(self.start.clone(), member as Member, self.pacing);
         let away = (0..self.players).filter(|&player| player == member || !self.is_there(player));
         away.for_each(|player| session.leave(player));
         if member < self.sessions.len() { self.sessions[member] = session } else { self.sessions.push(session) }
@@ -237,7 +249,7 @@ impl Match {
         {
             *intent = bot.intent(world, cell);
         }
-        Told::new(*intent, world.config().size)
+        Told::new(*intent, world.config().size).doing((self.deed)(member, session.frame()))
     }
 
     fn post(&mut self, from: usize, to: usize, bytes: Vec<u8>) {
@@ -263,17 +275,22 @@ impl Match {
             assert!(session.is_over() && session.desync().is_none(), "{:?}", session.tally());
         }
         let first = there.first().expect("somebody is there");
-        let mut round = round(self.players, self.seconds);
-        let cells: Vec<_> = round.players().collect();
-        let mut bots: Vec<_> = (0..cells.len()).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
+        let mut round = self.start.clone();
+        let mut bots: Vec<_> = (0..self.players).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
         let size = round.world().config().size;
         let mut frame = 0;
         while !round.is_over() {
+            let told: Vec<Told> = (0..self.players).map(|k| told(first, k, frame)).collect();
+            for (k, told) in told.iter().enumerate() {
+                // A bot takes the first change that it is offered.
+                let deed = if *told == Told::BOT { Some(Deed::Choose(0)) } else { told.deed() };
+                deed.into_iter().for_each(|deed| round.act(k, deed));
+            }
             for _ in 0..self.pacing.steps {
-                let intent = |k: usize| match first.told(k) {
-                    (_, Some(end)) if frame >= end as usize => bots[k].intent(round.world(), cells[k]),
-                    (told, _) if told[frame] == Told::BOT => bots[k].intent(round.world(), cells[k]),
-                    (told, _) => told[frame].intent(size),
+                let cells: Vec<_> = round.players().collect();
+                let intent = |k: usize| match told[k] {
+                    Told::BOT => bots[k].intent(round.world(), cells[k]),
+                    told => told.intent(size),
                 };
                 let intents: Vec<Intent> = (0..cells.len()).map(intent).collect();
                 round.step_all(&intents);
@@ -285,5 +302,13 @@ impl Match {
             assert_eq!((session.round().scores(), session.round().record()), (round.scores(), round.record()));
         }
         round.world().digest()
+    }
+}
+
+/// What a player has told its cell in a frame.
+fn told(session: &Session, player: usize, frame: usize) -> Told {
+    match session.told(player) {
+        (_, Some(end)) if frame >= end as usize => Told::BOT,
+        (told, _) => told[frame],
     }
 }

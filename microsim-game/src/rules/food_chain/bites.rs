@@ -1,7 +1,7 @@
 //! Bites: an amoeba gnaws at a smaller one that it touches. Real ones do: *Entamoeba histolytica* kills by taking in pieces of
 //! living cells (trogocytosis; Ralston and others 2014, Nature 508, 526).
 
-use super::change::{Change, is_own};
+use super::change::{Change, line_of};
 use microsim_core::glam::Vec2;
 use microsim_core::{Kind, OrganismId, OrganismView, Role, World};
 
@@ -102,7 +102,7 @@ fn pairs(world: &World) -> Vec<[OrganismView<'_>; 2]> {
     let amoebae: Vec<_> = world.view().organisms().filter(|cell| cell.kind() == Kind::AmoeboidCell).collect();
     let mut pairs = Vec::new();
     for by in &amoebae {
-        let others = amoebae.iter().filter(|of| is_own(**of) != is_own(*by));
+        let others = amoebae.iter().filter(|of| line_of(**of) != line_of(*by));
         pairs.extend(others.filter(|of| touch(*by, **of) && can_bite(*by, **of)).map(|of| [*by, *of]));
     }
     pairs
@@ -120,7 +120,7 @@ fn touch(a: OrganismView<'_>, b: OrganismView<'_>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::change::mark_own;
+    use super::super::change::mark;
     use super::*;
     use microsim_core::{AmoeboidCellSpec, Inputs, Intent, Placement, WorldConfig};
 
@@ -131,7 +131,7 @@ mod tests {
             let spec = AmoeboidCellSpec { radii: share * AmoeboidCellSpec::default().radii, ..Default::default() };
             world.spawn(&spec.into(), Placement::at(x, 45.0)).unwrap()
         });
-        mark_own(&mut world, cells[0]).unwrap();
+        mark(&mut world, cells[0], 0).unwrap();
         changes.iter().for_each(|change| change.make(&mut world, cells[0]).unwrap());
         (world, cells)
     }
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn a_bite_counts_for_a_second_though_touch_is_lost() {
         let (mut world, [large, small]) = touching();
-        mark_own(&mut world, small).unwrap();
+        mark(&mut world, small, 0).unwrap();
         let (mut bites, mut hunt) = (Bites::default(), Inputs::new());
         while !bites.was_bitten(small) && world.time() < 10.0 {
             bites.advance(&world);
@@ -191,9 +191,11 @@ mod tests {
     fn sisters_do_not_bite_each_other_when_one_has_changed() {
         let (mut world, [large, small]) = touching();
         assert_eq!(pairs(&world).len(), 0, "neither is the player's");
-        mark_own(&mut world, small).unwrap();
+        mark(&mut world, small, 0).unwrap();
         assert_eq!(pairs(&world).len(), 1);
-        mark_own(&mut world, large).unwrap();
+        mark(&mut world, large, 1).unwrap();
+        assert_eq!(pairs(&world).len(), 1, "cells of two players");
+        mark(&mut world, large, 0).unwrap();
         Change::Speed.make(&mut world, large).unwrap();
         assert!(pairs(&world).is_empty());
     }

@@ -4,8 +4,8 @@
 use crate::words::Key;
 use microsim_core::{Error, OrganismId, OrganismView, PhagocytosisParams, World};
 
-/// Bit of the user data that marks the cells of the player's line.
-const OWN: u128 = 1;
+/// Bits of the user data that have the number of the line, from 1 on; all other amoebae have 0 there.
+const LINE: u128 = 7;
 /// Bits of the user data for the number of each change, from the fourth bit on.
 const BITS: u32 = 4;
 const MOST: u128 = (1 << BITS) - 1;
@@ -98,18 +98,18 @@ pub fn changes(cell: OrganismView<'_>) -> u32 {
     Change::ALL.into_iter().map(|change| change.count(cell)).sum()
 }
 
-/// Whether a cell is of the player's line.
+/// The player, from 0 on, of whose line a cell is.
 #[must_use]
-pub fn is_own(cell: OrganismView<'_>) -> bool {
-    cell.user_data() & OWN != 0
+pub fn line_of(cell: OrganismView<'_>) -> Option<usize> {
+    ((cell.user_data() & LINE) as usize).checked_sub(1)
 }
 
-/// Marks a cell as the first of the player's line.
+/// Marks a cell as the first of a player's line.
 ///
 /// # Errors
 /// When it is gone.
-pub fn mark_own(world: &mut World, cell: OrganismId) -> Result<(), Error> {
-    world.set_user_data(cell, OWN)
+pub fn mark(world: &mut World, cell: OrganismId, player: usize) -> Result<(), Error> {
+    world.set_user_data(cell, (1 + player as u128) & LINE)
 }
 
 #[cfg(test)]
@@ -122,13 +122,13 @@ mod tests {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
         let before = *world.view().organism(cell).unwrap().phagocytosis().unwrap();
-        assert!(!is_own(world.view().organism(cell).unwrap()));
-        mark_own(&mut world, cell).unwrap();
+        assert_eq!(line_of(world.view().organism(cell).unwrap()), None);
+        mark(&mut world, cell, 3).unwrap();
         for change in Change::ALL {
             (0..2).for_each(|_| change.make(&mut world, cell).unwrap());
         }
         let view = world.view().organism(cell).unwrap();
-        assert!(is_own(view) && changes(view) == 12);
+        assert_eq!((line_of(view), changes(view)), (Some(3), 12));
         assert_eq!(Change::ALL.map(|change| change.count(view)), [2; 6]);
         assert!((view.speed() - 1.3225 * AmoeboidCellSpec::default().speed).abs() < 1e-4);
         let after = view.phagocytosis().unwrap();

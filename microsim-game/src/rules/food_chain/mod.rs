@@ -1,20 +1,29 @@
-//! The food chain: an endless round. Hunger uses up cytoplasm, larger amoebae [bite](bites), and at each doubling the body
-//! [changes](change). What comes when is data, `games/food-chain.toml`.
+//! The food chain: an endless round of one to four players, each with a line of cells. Hunger uses up cytoplasm, larger amoebae
+//! [bite](bites), and at each doubling the body [changes](change). What comes when is data, `games/food-chain.toml`.
 //!
 //! What the rules do to the world they do between two steps, so a replay has it; when it is played again they only look on.
 
 pub mod bites;
 pub mod change;
+mod line;
 
+use super::seating::seat;
 use bites::{Bites, can_bite, cytoplasm};
-use change::{Change, changes, is_own, mark_own};
+use change::{Change, changes, line_of, mark};
+pub use line::Fate;
+use line::Line;
 use microsim_core::glam::Vec2;
-use microsim_core::{Kind, OrganismId, OrganismView, Rng, View, World};
+use microsim_core::{Kind, OrganismId, OrganismView, View, World};
 
 /// Name of its scenario.
 pub const NAME: &str = "food-chain";
 /// Its scenario.
 pub const TEXT: &str = include_str!("../../../games/food-chain.toml");
+
+/// Where the cells of the players end in it, and those of more players: the second begins in the right room, two in the middle one.
+const OTHERS: &str = "# --- What else is there";
+const CELL: &str = "of = \"hunter\"\nsecretes = { scent = 60.0 }";
+const MORE: [(usize, [f32; 2]); 3] = [(2, [160.0, 50.0]), (3, [96.0, 26.0]), (4, [96.0, 74.0])];
 
 /// Fewest particles of cytoplasm with which a cell lives, `division.least_particles` of its file.
 const LEAST: u32 = 12;
@@ -26,8 +35,12 @@ const RAMP: f32 = 90.0;
 const RESTING: f32 = 0.3;
 /// What each [`Change::Thrift`] leaves of it.
 const THRIFT: f32 = 0.9;
-/// Streams of random numbers from here on are for offers.
-const STREAM: u64 = 5 << 60;
+
+/// The scenario for so many players, 1 to 4.
+#[must_use]
+pub fn text(players: usize) -> String {
+    seat(TEXT, OTHERS, players, CELL, &MORE)
+}
 
 /// The state of a food chain.
 #[derive(Clone, Debug)]
@@ -37,51 +50,52 @@ pub struct FoodChain {
     /// What hunger will take next, by cell, particles.
     owed: Vec<(OrganismId, f32)>,
     bites: Bites,
-    offer: Option<[Change; 3]>,
-    rng: Rng,
-    fate: Option<Fate>,
-    is_over: bool,
+    /// Of each player.
+    lines: Vec<Line>,
 }
 
-/// How the last cell of the player's line came to its end.
+/// What a player does besides crawling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
-    /// It had nothing left to live on.
-    Starved,
-    /// A larger amoeba ate it.
-    Eaten,
+pub enum Deed {
+    /// Takes one of the changes that are offered, by its place.
+    Choose(usize),
+    /// Divides the cell.
+    Divide,
 }
 
 impl FoodChain {
-    /// A food chain at its beginning.
+    /// A food chain at its beginning, with the cells of its players.
     #[must_use]
-    pub fn new(world: &World, player: OrganismId) -> Self {
-        let first = world.view().organism(player).map_or(1, cytoplasm).max(1);
-        let rng = Rng::new(world.config().seed, STREAM);
-        let (owed, bites) = (Vec::new(), Bites::default());
-        Self { first, owed, bites, offer: None, rng, fate: None, is_over: false }
+    pub fn new(world: &World, players: &[OrganismId]) -> Self {
+        let first = players.first().and_then(|&cell| world.view().organism(cell));
+        let lines = (0..players.len()).map(|player| Line::new(world.config().seed, player)).collect();
+        let (first, owed, bites) = (first.map_or(1, cytoplasm).max(1), Vec::new(), Bites::default());
+        Self { first, owed, bites, lines }
     }
 
-    /// What the rules do before a step: bites and hunger. A cell that has nothing left to lose is gone.
-    pub fn before_step(&mut self, world: &mut World, player: OrganismId) {
+    /// What the rules do before a step: bites and hunger. A cell that has nothing left to lose is gone. `players` are the cells that
+    /// are played.
+    pub fn before_step(&mut self, world: &mut World, players: &[OrganismId]) {
         if world.step_index() == 0 {
-            let _ = mark_own(world, player);
+            for (player, cell) in players.iter().enumerate() {
+                let _ = mark(world, *cell, player);
+            }
         }
         for [by, of] in self.bites.advance(world) {
             self.bite(world, by, of);
         }
-        let own: Vec<OrganismId> =
-            world.view().organisms().filter(|cell| is_own(*cell)).map(|cell| cell.id()).collect();
+        let own = world.view().organisms().filter(|cell| line_of(*cell).is_some());
+        let own: Vec<OrganismId> = own.map(|cell| cell.id()).collect();
         self.owed.retain(|(id, _)| own.contains(id));
         for id in own {
-            self.starve(world, id, player);
+            self.starve(world, id, players.contains(&id));
         }
     }
 
     fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId) {
         self.take(world, of, Fate::Eaten);
         // Refused while it divides, or has no room.
-        if world.view().organism(by).is_some_and(is_own) {
+        if world.view().organism(by).and_then(line_of).is_some() {
             let _ = world.grow(by, 0, 1);
         }
     }
@@ -89,16 +103,16 @@ impl FoodChain {
     /// Takes a particle from a cell; one that has no more than it lives on is gone. A cell that divides loses nothing.
     fn take(&mut self, world: &mut World, from: OrganismId, fate: Fate) {
         let Some(cell) = world.view().organism(from).filter(|cell| cell.dividing_for().is_none()) else { return };
-        let is_own = is_own(cell);
+        let line = line_of(cell);
         if cytoplasm(cell) <= LEAST || world.shrink(from, 1).is_err() {
             let _ = world.remove(from);
-            self.fate = if is_own { Some(fate) } else { self.fate };
+            line.and_then(|line| self.lines.get_mut(line)).into_iter().for_each(|line| line.fate = Some(fate));
         }
     }
 
-    fn starve(&mut self, world: &mut World, id: OrganismId, player: OrganismId) {
+    fn starve(&mut self, world: &mut World, id: OrganismId, is_played: bool) {
         let Some(cell) = world.view().organism(id) else { return };
-        let resting = if id == player { 1.0 } else { RESTING };
+        let resting = if is_played { 1.0 } else { RESTING };
         let used = resting * self.hunger(cell, world.time() as f32) * world.config().dt;
         let place = self.owed.iter().position(|(known, _)| *known == id).unwrap_or_else(|| {
             self.owed.push((id, 0.0));
@@ -136,41 +150,31 @@ impl FoodChain {
         if left > 0.0 { left / self.hunger(cell, time) } else { 0.0 }
     }
 
-    /// Looks after a step who is played now: the same cell, or a sister if that is gone.
-    pub fn after_step(&mut self, world: &World, player: OrganismId) -> OrganismId {
+    /// Looks after a step which cell a player has now: the same one, or a sister if that is gone.
+    pub fn after_step(&mut self, world: &World, player: usize, cell: OrganismId) -> OrganismId {
         let view = world.view();
-        let heir = view.organism(player).or_else(|| view.organisms().find(|cell| is_own(*cell)));
-        self.is_over = heir.is_none();
-        let Some(cell) = heir else { return player };
-        if self.offer.is_none() && self.size(cell) >= 2.0_f32.powi(1 + changes(cell) as i32) {
-            self.offer = Some(self.draw());
+        let heir = view.organism(cell).or_else(|| view.organisms().find(|other| line_of(*other) == Some(player)));
+        let has_doubled = heir.is_some_and(|heir| self.size(heir) >= 2.0_f32.powi(1 + changes(heir) as i32));
+        let line = &mut self.lines[player];
+        if has_doubled {
+            line.offer_changes();
         }
-        cell.id()
+        if heir.is_none() {
+            line.end.get_or_insert(world.time() as f32);
+        }
+        heir.map_or(cell, |heir| heir.id())
     }
 
-    /// Three changes by chance.
-    fn draw(&mut self) -> [Change; 3] {
-        let mut left = Change::ALL.to_vec();
-        [(); 3].map(|()| left.swap_remove(self.rng.next_u32() as usize % left.len()))
-    }
-
-    /// The changes of which one may be chosen now.
+    /// The changes of which a player may choose one now.
     #[must_use]
-    pub fn offer(&self) -> Option<[Change; 3]> {
-        self.offer
+    pub fn offer(&self, player: usize) -> Option<[Change; 3]> {
+        self.lines.get(player)?.offer
     }
 
-    /// Makes one of the changes that are offered.
-    pub fn choose(&mut self, change: Change, world: &mut World, player: OrganismId) {
-        if self.offer.is_some_and(|offer| offer.contains(&change)) {
-            self.change(change, world, player);
-        }
-    }
-
-    /// Makes a change, whatever is offered.
-    pub(super) fn change(&mut self, change: Change, world: &mut World, player: OrganismId) {
-        if change.make(world, player).is_ok() {
-            self.offer = None;
+    /// Makes a change of a player's cell, and takes back what is offered.
+    pub(super) fn change(&mut self, change: Change, world: &mut World, player: usize, cell: OrganismId) {
+        if change.make(world, cell).is_ok() {
+            self.lines[player].offer = None;
         }
     }
 
@@ -180,16 +184,27 @@ impl FoodChain {
         self.bites.is_bitten(cell)
     }
 
-    /// How the last cell that is gone came to its end; `None` before, and in a replay.
+    /// How the last cell of a line that is gone came to its end; `None` before, and in a replay.
     #[must_use]
-    pub fn fate(&self) -> Option<Fate> {
-        self.fate
+    pub fn fate(&self, player: usize) -> Option<Fate> {
+        self.lines.get(player)?.fate
     }
 
-    /// Whether no cell of the player's line is left.
+    /// How long each line has lived by this time, s.
+    pub fn lives(&self, time: f32) -> impl Iterator<Item = f32> + '_ {
+        self.lines.iter().map(move |line| line.end.unwrap_or(time))
+    }
+
+    /// Whether no cell of a player's line is left.
+    #[must_use]
+    pub fn is_gone(&self, player: usize) -> bool {
+        self.lines.get(player).is_none_or(|line| line.end.is_some())
+    }
+
+    /// Whether no cell of any line is left.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        self.is_over
+        self.lines.iter().all(|line| line.end.is_some())
     }
 }
 
@@ -204,11 +219,12 @@ pub struct Other {
     pub distance: f32,
 }
 
-/// The amoebae that can bite a cell, and those that it can bite, the nearest first.
+/// The amoebae of no line or another one that can bite a cell, and those that it can bite, the nearest first.
 #[must_use]
 pub fn threats_and_victims(view: View<'_>, player: OrganismId) -> [Vec<Other>; 2] {
     let Some(cell) = view.organism(player) else { return [Vec::new(), Vec::new()] };
-    let amoebae = || view.organisms().filter(|other| other.kind() == Kind::AmoeboidCell && !is_own(*other));
+    let amoebae =
+        || view.organisms().filter(|other| other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell));
     let mut found = [
         amoebae().filter(|other| can_bite(*other, cell)).map(|other| seen(other, cell)).collect::<Vec<_>>(),
         amoebae().filter(|other| can_bite(cell, *other)).map(|other| seen(other, cell)).collect(),
@@ -221,3 +237,6 @@ fn seen(other: OrganismView<'_>, cell: OrganismView<'_>) -> Other {
     let ((low, high), at) = (other.bounds(), other.centroid());
     Other { at, half_extent: 0.5 * (high - low).max_element(), distance: (at - cell.centroid()).length() }
 }
+
+#[cfg(test)]
+mod tests;
