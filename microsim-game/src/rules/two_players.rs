@@ -8,7 +8,7 @@ pub const NAME: &str = "two-under-glass";
 /// Its scenario.
 pub const TEXT: &str = include_str!("../../games/two-under-glass.toml");
 
-/// Where the cells of the players end in it.
+/// Where the cells of the players end in a scenario of two.
 const OBSTACLES: &str = "# --- What is in their way";
 
 /// How two cells play.
@@ -84,10 +84,15 @@ impl TwoPlayers {
 /// The scenario for so many players, 2 to 4: the third cell is beside the first one, the fourth beside the second.
 #[must_use]
 pub fn text(players: usize) -> String {
-    let extra = [(3, [24.0, 66.0]), (4, [120.0, 15.0])].into_iter().filter(|(number, _)| *number <= players);
-    let cells = extra.map(|(k, at)| format!("[[spawn]]\nof = \"hunter\"\nname = \"player-{k}\"\nat = {at:?}\n\n"));
+    with_more(TEXT, "hunter", [[24.0, 66.0], [120.0, 15.0]], players)
+}
+
+/// A scenario of two cells for so many players, with the cells of a third and a fourth at these places.
+pub(crate) fn with_more(text: &str, of: &str, places: [[f32; 2]; 2], players: usize) -> String {
+    let more = (3..).zip(places).filter(|(number, _)| *number <= players);
+    let cells = more.map(|(k, at)| format!("[[spawn]]\nof = \"{of}\"\nname = \"player-{k}\"\nat = {at:?}\n\n"));
     // Before all that finds a free place of its own.
-    TEXT.replacen(OBSTACLES, &(cells.collect::<String>() + OBSTACLES), 1)
+    text.replacen(OBSTACLES, &(cells.collect::<String>() + OBSTACLES), 1)
 }
 
 #[cfg(test)]

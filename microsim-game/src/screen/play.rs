@@ -195,9 +195,7 @@ impl Play {
             }
         }
         places::draw_food(pen, style, view);
-        if let Some(attempt) = self.round.attempt() {
-            places::draw_places(pen, style, attempt.goals());
-        }
+        places::draw_places(pen, style, &self.round);
         self.draw_chain(pen, style, view);
         marks::draw_held(pen, style, &mut taken, &hints.held);
         if self.round.chain().is_none() {
