@@ -1,5 +1,6 @@
-//! The slides that come with the game: a file in `slides/` and a line here for each, in the order of play.
+//! The slides that come with the game, for one and for more: a file in `slides/` and a line here for each, in the order of play.
 
+use crate::rules::seating::{OBSTACLES, seat};
 use crate::words;
 use microsim_core::scenario::{Scenario, Slide};
 
@@ -12,7 +13,7 @@ pub struct BuiltinSlide {
     pub text: &'static str,
 }
 
-/// All of them.
+/// Those for one, in the order of play.
 pub static SLIDES: &[BuiltinSlide] = &[
     slide("first-steps", include_str!("../slides/first-steps.toml")),
     slide("first-meal", include_str!("../slides/first-meal.toml")),
@@ -28,8 +29,37 @@ pub static SLIDES: &[BuiltinSlide] = &[
     slide("little-animals", include_str!("../slides/little-animals.toml")),
 ];
 
+/// A slide that two to four play together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SharedSlide {
+    /// The slide, with two cells.
+    pub slide: BuiltinSlide,
+    /// Where a third cell and a fourth are.
+    more: [[f32; 2]; 2],
+}
+
+/// All of them; messages of a network name one by its place here.
+pub static SHARED: &[SharedSlide] = &[
+    shared(slide("both-poles", include_str!("../slides/both-poles.toml")), [[40.0, 14.0], [100.0, 66.0]]),
+    shared(slide("sieve", include_str!("../slides/sieve.toml")), [[16.0, 16.0], [124.0, 64.0]]),
+    shared(slide("swarm", include_str!("../slides/swarm.toml")), [[37.0, 38.0], [113.0, 38.0]]),
+];
+
 const fn slide(name: &'static str, text: &'static str) -> BuiltinSlide {
     BuiltinSlide { name, text }
+}
+
+const fn shared(slide: BuiltinSlide, more: [[f32; 2]; 2]) -> SharedSlide {
+    SharedSlide { slide, more }
+}
+
+impl SharedSlide {
+    /// The scenario for so many players, 2 to 4.
+    #[must_use]
+    pub fn text(&self, players: usize) -> String {
+        let [third, fourth] = self.more;
+        seat(self.slide.text, OBSTACLES, players, "of = \"cell\"", &[(3, third), (4, fourth)])
+    }
 }
 
 impl BuiltinSlide {
@@ -39,7 +69,13 @@ impl BuiltinSlide {
         Scenario::parse(self.text, &[]).ok()?.slide().cloned()
     }
 
-    /// The same in the language of the player; the source of the fact stays as it is.
+    /// Its title in the language of the player.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.told().map_or_else(String::new, |slide| slide.title)
+    }
+
+    /// All of it in the language of the player; the source of the fact stays as it is.
     #[must_use]
     pub fn told(&self) -> Option<Slide> {
         let mut slide = self.read()?;
@@ -55,139 +91,21 @@ impl BuiltinSlide {
 /// A slide as it is told in the language of the player, if it is one of these.
 #[must_use]
 pub fn told(slide: &Slide) -> Slide {
-    let known = SLIDES.iter().find(|builtin| builtin.read().as_ref() == Some(slide));
+    let known = all().find(|builtin| builtin.read().as_ref() == Some(slide));
     known.and_then(BuiltinSlide::told).unwrap_or_else(|| slide.clone())
 }
 
-/// The slide of a name.
+/// The slide of a name, for one or for more.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static BuiltinSlide> {
-    SLIDES.iter().find(|slide| slide.name == name)
+    all().find(|slide| slide.name == name)
+}
+
+/// Slides for one and for more.
+pub fn all() -> impl Iterator<Item = &'static BuiltinSlide> {
+    SLIDES.iter().chain(SHARED.iter().map(|shared| &shared.slide))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rules::attempt::Attempt;
-    use crate::rules::bot::{Bot, Policy};
-    use crate::rules::round::Round;
-    use crate::rules::slide_bot::SlideBot;
-    use crate::sound::Cue;
-    use microsim_core::Intent;
-    use microsim_core::replay::Replay;
-    use microsim_core::scenario::builtin;
-    use std::collections::BTreeSet;
-
-    fn round(slide: &BuiltinSlide, seed: u64) -> Round {
-        let mut scenario = Scenario::parse(slide.text, &[]).unwrap_or_else(|found| panic!("{}: {found}", slide.name));
-        scenario.set_seed(seed);
-        Round::new(&scenario).unwrap_or_else(|problem| panic!("{}, seed {seed}: {problem}", slide.name))
-    }
-
-    /// Plays a slide to its end, or for some time, s.
-    fn play(mut round: Round, longest: f32, mut intent: impl FnMut(&Round) -> Intent) -> Round {
-        while !round.is_over() && round.world().time() < f64::from(longest) {
-            let intent = intent(&round);
-            round.step(intent);
-        }
-        round
-    }
-
-    /// Plays a slide with a seed to its end, or for some time, s.
-    type PlaySlide = fn(&BuiltinSlide, u64, f32) -> Round;
-
-    fn idle(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
-        play(round(slide, seed), longest, |_| Intent::REST.digesting(true))
-    }
-
-    fn random(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
-        let mut bot = Bot::new(Policy::Random, seed);
-        play(round(slide, seed), longest, |round| bot.intent(round.world(), round.player()).digesting(true))
-    }
-
-    fn skilled(slide: &BuiltinSlide, seed: u64, longest: f32) -> Round {
-        let round = round(slide, seed);
-        let mut bot = SlideBot::new(round.world());
-        play(round, longest, |round| bot.intent(round))
-    }
-
-    /// Whether a bot gets an accepted number of stars, and prints how many; `MICROSIM_SEEDS` is how many seeds it plays.
-    fn judge(name: &str, bot: PlaySlide, longest: fn(&Slide) -> f32, is_accepted: fn(u32) -> bool) {
-        let seeds = std::env::var("MICROSIM_SEEDS").map_or(3, |count| count.parse().unwrap());
-        for (slide, rules) in all() {
-            let rounds: Vec<Round> = (1..=seeds).map(|seed| bot(slide, seed, longest(&rules))).collect();
-            let counts = [0, 1, 2, 3].map(|wanted| rounds.iter().filter(|round| stars(round) == wanted).count());
-            let times: Vec<f32> = rounds.iter().filter_map(|round| round.attempt()?.time()).collect();
-            println!("{}, {name}: 0 to 3 stars {counts:?}, times {times:.0?}", slide.name);
-            let accepted = rounds.iter().filter(|round| is_accepted(stars(round))).count();
-            assert!(10 * accepted >= 9 * rounds.len(), "{}, {name}: {counts:?}", slide.name);
-        }
-    }
-
-    fn stars(round: &Round) -> u32 {
-        round.attempt().map_or(0, Attempt::stars)
-    }
-
-    fn all() -> impl Iterator<Item = (&'static BuiltinSlide, Slide)> {
-        SLIDES.iter().map(|slide| (slide, slide.read().unwrap_or_else(|| panic!("{} is broken", slide.name))))
-    }
-
-    #[test]
-    fn t87_every_slide_has_a_name_of_its_own_that_its_file_says() {
-        let names: BTreeSet<&str> = all().map(|(slide, _)| slide.name).collect();
-        let titles: BTreeSet<String> = all().map(|(_, slide)| slide.title).collect();
-        assert_eq!((names.len(), titles.len()), (SLIDES.len(), SLIDES.len()));
-        for (slide, _) in all() {
-            assert_eq!(Scenario::parse(slide.text, &[]).unwrap().name(), slide.name);
-            assert!(builtin(slide.name).is_none() && find(slide.name) == Some(slide), "{}", slide.name);
-        }
-    }
-
-    #[test]
-    fn t87_a_bot_that_sees_walls_gets_two_stars_on_every_slide() {
-        for (slide, rules) in all() {
-            let round = skilled(slide, 1, rules.time);
-            assert!(stars(&round) >= 2, "{}: {:?}", slide.name, round.attempt().map(Attempt::summary));
-        }
-    }
-
-    #[test]
-    #[ignore = "for release builds"]
-    fn t87_skill_earns_two_stars_with_any_seed() {
-        judge("skilled", skilled, |rules| rules.time, |stars| stars >= 2);
-    }
-
-    #[test]
-    #[ignore = "for release builds"]
-    fn t87_chance_earns_at_most_one_star_with_any_seed() {
-        judge("random", random, |rules| rules.stars[1] + 0.1, |stars| stars <= 1);
-    }
-
-    #[test]
-    #[ignore = "for release builds"]
-    fn t87_nobody_wins_by_doing_nothing_with_any_seed() {
-        judge("idle", idle, |rules| rules.time, |stars| stars == 0);
-    }
-
-    #[test]
-    fn t87_a_slide_that_is_not_done_in_time_is_lost() {
-        let text =
-            SLIDES[0].text.replace("time = 60.0", "time = 2.0").replace("stars = [15.0, 24.0]", "stars = [1.0, 2.0]");
-        let mut round = Round::new(&Scenario::parse(&text, &[]).unwrap()).unwrap();
-        (0..119).for_each(|_| round.step(Intent::REST));
-        assert!(!round.is_over());
-        round.step(Intent::REST);
-        let attempt = round.result().attempt.unwrap();
-        assert!(round.is_over() && attempt.time().is_none() && attempt.stars() == 0);
-    }
-
-    #[test]
-    fn t87_a_slide_is_played_again_to_the_bit_from_its_record() {
-        let round = skilled(&SLIDES[0], 1, 60.0);
-        let replay = Replay::read(&round.record().unwrap()).unwrap();
-        let again = play(Round::again(&replay).unwrap(), 60.0, |_| Intent::REST);
-        assert_eq!(again.attempt(), round.attempt());
-        assert!(again.mismatch().is_none() && stars(&again) == 3);
-        assert!(again.heard().any(|cue| cue == Cue::End), "the end is heard");
-    }
-}
+#[path = "slides_tests.rs"]
+mod tests;

@@ -209,6 +209,10 @@ const WORDS: &[(&str, &str)] = &[
     ("slide.stars", "Longest times that earn three stars and two, s."),
     ("slide.goal", "What has to be done, in any order."),
     ("slide.goal.*.reach", "A box to be in with its centre once, [[x0, y0], [x1, y1]], micrometres."),
+    (
+        "slide.goal.*.together",
+        "Two boxes that two players' cells have to be in at the same time, each with its centre in another one, micrometres.",
+    ),
     ("slide.goal.*.digested", "Kind of prey to digest: agar, coccus, bacillus or rigid_cell."),
     ("slide.goal.*.count", "How many of it."),
     ("invariants", "What must hold after every step."),

@@ -70,7 +70,7 @@
 //! | `[[command]]` | `of`: an organism's `name`; `at = 0.0`, and `every`, `until` (the duration) to repeat it; one or more of: `goal = [x, y]`, `follow = "NAME"`, `rest = true`, `digest` (a boolean), `grow = { nodes = 0, particles = 0 }`, `divide = "NAME"` (of the daughter, for later commands), `fuse = "NAME"` (with the one of that name, if they touch; it has both names then), `controller = "NAME"` (in place of all that it was told) |
 //! | `[game]` | `time = 90.0`, `[game.points.KIND]` for `agar`, `coccus`, `bacillus`, `rigid_cell`: `each = 0.0`, `per_area = 0.0` (see [`Game`]) |
 //! | `[slide]` | `title`, `task`, `fact`, `source`, `time`, `stars = [for 3, for 2]`, all required (see [`Slide`]); does not go with `[game]` |
-//! | `[[slide.goal]]` | `reach = [[x0, y0], [x1, y1]]`; or `digested = "KIND"`, a kind of `[game.points]`, and `count = 1` |
+//! | `[[slide.goal]]` | `reach = [[x0, y0], [x1, y1]]`; or `together = [BOX, BOX]`, two such boxes for two players; or `digested = "KIND"`, a kind of `[game.points]`, and `count = 1` |
 //! | `[invariants]` | any of the [measures](crate::Measure::ALL), or of the [kinds of events](crate::Event::NAMES), which are counted: the most that it may be after any step, or `[least, most]` |
 //! | `[output]` | what is written while it runs: `events = true`, `pictures = true`, `snapshots = [times]`, `checkpoint_every = 0` steps |
 //! | `[output.measures]`, `[output.trajectories]` | `formats = ["csv"]`, `every = 0.1` (0: each step); for measures also `of = [names]` |

@@ -253,6 +253,31 @@ fn a_slide_has_goals_and_a_time_for_each_star() {
     assert_eq!(rules.stars, [20.0, 40.0]);
 }
 
+/// The slide with another goal, for two cells.
+fn slide_for_two() -> String {
+    let second = "name = \"player-2\"\nat = [40.0, 40.0]\n[coccus.prey]";
+    let slide = slide().replacen("[coccus.prey]", &format!("[[spawn]]\nof = \"cell\"\n{second}"), 1);
+    format!("{slide}[[slide.goal]]\ntogether = [[[1.0, 2.0], [3.0, 4.0]], [[5.0, 2.0], [7.0, 4.0]]]\n")
+}
+
+#[test]
+fn a_slide_may_need_two_players_in_two_places_at_once() {
+    let scenario = Scenario::parse(&slide_for_two(), &[]).unwrap();
+    let place = |x| [Vec2::new(x, 2.0), Vec2::new(x + 2.0, 4.0)];
+    assert_eq!(scenario.slide().unwrap().goals[2], Goal::Together { places: [place(1.0), place(5.0)] });
+    let bad = [
+        ("[5.0, 2.0]", "[2.0, 2.0]", "slide.goal.2.together.1: overlaps the other box"),
+        ("[5.0, 2.0]", "[8.0, 2.0]", "slide.goal.2.together.1: not a box in the room"),
+        ("player-2", "another", "slide.goal.2.together: one plays alone"),
+        ("together", "count = 2\ntogether", "slide.goal.2.count: does not go with `together`"),
+        ("together", "digested = \"coccus\"\ntogether", "slide.goal.2.digested: does not go with `together`"),
+    ];
+    for (from, to, expected) in bad {
+        let problem = Scenario::parse(&slide_for_two().replacen(from, to, 1), &[]).unwrap_err().to_string();
+        assert!(problem.contains(expected), "{from} -> {to}: {problem}");
+    }
+}
+
 /// What is changed in the slide, to what, and words of the refusal.
 const BAD_SLIDES: [(&str, &str, &str); 16] = [
     ("player = true", "", "slide: nobody plays"),

@@ -2,31 +2,45 @@
 
 use super::marks::{Style, draw_at_edge};
 use crate::draw::palette::{HALO, INK, READY, fade};
+use crate::rules::attempt::{Attempt, is_held, places, wanted};
 use crate::rules::prey;
+use crate::rules::round::Round;
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
 use microsim_core::View;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
 
-/// Draws a frame around each place, a thick one that is filled until the player was there; an arrow at the edge of the picture
-/// points to such a place outside.
-pub fn draw_places<'a>(pen: &mut Pen, style: &Style<'_>, goals: impl Iterator<Item = (&'a Goal, u32)>) {
+/// Draws a frame around each place, a thick one that is filled until a player was there; of two places to be held at the same time,
+/// which a line joins, while nobody is there. An arrow at the edge of the picture points to such a place outside.
+pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round) {
     let unit = pen.line(TextSize::Body);
-    for (goal, done) in goals {
-        let Goal::Reach { low, high } = *goal else { continue };
-        let [a, b] = [low, high].map(|corner| style.camera.to_screen(corner));
-        let (low, high) = (a.min(b), a.max(b));
-        if done == 0 {
-            pen.canvas().rectangle(low, high, fade(READY, 0.2));
-            draw_frame(pen, low, high, 0.16 * unit, 1.0);
-        } else {
-            draw_frame(pen, low, high, 0.06 * unit, 0.6);
+    let players: Vec<Vec2> = round.players().filter_map(|cell| round.world().centroid(cell)).collect();
+    for (goal, done) in round.attempt().into_iter().flat_map(Attempt::goals) {
+        let is_open = done < wanted(goal);
+        if let (Goal::Together { places }, true) = (goal, is_open) {
+            let [a, b] = places.map(|[low, high]| style.camera.to_screen(0.5 * (low + high)));
+            pen.canvas().segment(a, b, 0.12 * unit, fade(READY, 0.5));
         }
-        let is_seen = low.cmplt(pen.screen()).all() && high.cmpgt(Vec2::ZERO).all();
-        if done == 0 && !is_seen {
-            draw_at_edge(pen, 0.5 * (low + high), unit, READY);
+        for place in places(goal) {
+            draw_place(pen, style, place, is_open && !is_held(place, &players));
         }
+    }
+}
+
+fn draw_place(pen: &mut Pen, style: &Style<'_>, place: [Vec2; 2], is_open: bool) {
+    let unit = pen.line(TextSize::Body);
+    let [a, b] = place.map(|corner| style.camera.to_screen(corner));
+    let (low, high) = (a.min(b), a.max(b));
+    if !is_open {
+        draw_frame(pen, low, high, 0.06 * unit, 0.6);
+        return;
+    }
+    pen.canvas().rectangle(low, high, fade(READY, 0.2));
+    draw_frame(pen, low, high, 0.16 * unit, 1.0);
+    let is_seen = low.cmplt(pen.screen()).all() && high.cmpgt(Vec2::ZERO).all();
+    if !is_seen {
+        draw_at_edge(pen, 0.5 * (low + high), unit, READY);
     }
 }
 
@@ -58,17 +72,15 @@ mod tests {
 
     #[test]
     fn t87_a_place_is_marked_until_the_player_was_there() {
-        let drawn = |at: f32, done| {
-            let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
-            let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let drawn = |at: f32, is_open| {
             let mut pen = Pen::bare();
-            let goal = Goal::Reach { low: Vec2::splat(at), high: Vec2::splat(at + 10.0) };
-            draw_places(&mut pen, &style, [(&goal, done)].into_iter());
+            draw_place(&mut pen, &style, [Vec2::splat(at), Vec2::splat(at + 10.0)], is_open);
             pen.canvas().count(READY)
         };
-        assert!(drawn(20.0, 0) > 0, "a frame");
-        assert_eq!(drawn(20.0, 1), 0);
-        let arrow = drawn(400.0, 0) - drawn(20.0, 0);
-        assert!(arrow > 0, "and an arrow to what is outside");
+        assert!(drawn(20.0, true) > 0, "a frame");
+        assert_eq!(drawn(20.0, false), 0);
+        assert!(drawn(400.0, true) > drawn(20.0, true), "and an arrow to what is outside");
     }
 }

@@ -1,6 +1,5 @@
 //! An attempt at a slide: which goals are reached, when all are, and the stars for it.
 
-use super::referee::KindScore;
 use crate::words::{self, Key};
 use microsim_core::Kind;
 use microsim_core::glam::Vec2;
@@ -30,24 +29,21 @@ impl Attempt {
         let each = Points { each: 1.0, per_area: 0.0 };
         let kinds = slide.goals.iter().filter_map(|goal| match goal {
             Goal::Digest { kind, .. } => Some((*kind, each)),
-            Goal::Reach { .. } => None,
+            Goal::Reach { .. } | Goal::Together { .. } => None,
         });
         Game { time: slide.time, points: kinds.collect() }
     }
 
-    /// Looks after a step, at a time, at where the player is and what it has digested.
-    pub fn after_step(&mut self, time: f32, player: Option<Vec2>, digested: &[(Kind, KindScore)]) {
+    /// Looks after a step, at a time, at where the players are and how much of a kind they have digested together.
+    pub fn after_step(&mut self, time: f32, players: &[Vec2], digested: impl Fn(Kind) -> u32) {
         for (goal, done) in self.slide.goals.iter().zip(&mut self.done) {
-            *done = match *goal {
-                Goal::Reach { low, high } => {
-                    let is_in = |at: Vec2| low.cmple(at).all() && at.cmple(high).all();
-                    (*done).max(player.is_some_and(is_in).into())
-                }
-                Goal::Digest { kind, count } => {
-                    let found = digested.iter().find(|(of, _)| *of == kind);
-                    found.map_or(0, |(_, entry)| entry.count).min(count)
-                }
-            };
+            let all = wanted(goal);
+            if *done < all {
+                *done = match *goal {
+                    Goal::Digest { kind, .. } => digested(kind).min(all),
+                    _ => places(goal).filter(|place| is_held(*place, players)).count() as u32,
+                };
+            }
         }
         if self.time.is_none() && self.goals().all(|(goal, done)| done == wanted(goal)) {
             self.time = Some(time);
@@ -92,13 +88,29 @@ impl Attempt {
     }
 }
 
-/// How much a goal asks for: a count of prey, or one for an area.
+/// How much a goal asks for: a count of prey, or of places.
 #[must_use]
 pub fn wanted(goal: &Goal) -> u32 {
     match goal {
-        Goal::Reach { .. } => 1,
         Goal::Digest { count, .. } => *count,
+        _ => places(goal).count() as u32,
     }
+}
+
+/// The places of a goal: lower left and upper right corner of each.
+pub fn places(goal: &Goal) -> impl Iterator<Item = [Vec2; 2]> + use<> {
+    let places = match *goal {
+        Goal::Reach { low, high } => [Some([low, high]), None],
+        Goal::Together { places } => places.map(Some),
+        Goal::Digest { .. } => [None; 2],
+    };
+    places.into_iter().flatten()
+}
+
+/// Whether one of these points is in a place.
+#[must_use]
+pub fn is_held([low, high]: [Vec2; 2], points: &[Vec2]) -> bool {
+    points.iter().any(|&at| low.cmple(at).all() && at.cmple(high).all())
 }
 
 /// Stars for reaching all goals of a slide after so many seconds: 1 to 3.

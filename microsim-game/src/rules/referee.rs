@@ -116,6 +116,12 @@ impl Referee {
         &self.kinds
     }
 
+    /// How many of a kind were digested so far.
+    #[must_use]
+    pub fn digested(&self, kind: Kind) -> u32 {
+        self.kinds.iter().find(|(of, _)| *of == kind).map_or(0, |(_, entry)| entry.count)
+    }
+
     /// Time left, s.
     #[must_use]
     pub fn time_left(&self) -> f32 {

@@ -158,9 +158,10 @@ impl Round {
                 referee.follow(*cell);
             }
         }
-        let Seat { cell, referee } = &self.seats[0];
         if let Some(attempt) = &mut self.attempt {
-            attempt.after_step(world.time() as f32, world.centroid(*cell), referee.kinds());
+            let players: Vec<_> = self.seats.iter().filter_map(|seat| world.centroid(seat.cell)).collect();
+            let digested = |kind| self.seats.iter().map(|seat| seat.referee.digested(kind)).sum();
+            attempt.after_step(world.time() as f32, &players, digested);
         }
     }
 

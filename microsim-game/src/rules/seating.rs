@@ -1,5 +1,8 @@
 //! Cells of more players in the text of a scenario.
 
+/// Where the cells of the players end in a scenario of two.
+pub const OBSTACLES: &str = "# --- What is in their way";
+
 /// The text with cells for so many players: `cells` are numbers and places of those that it does not have, `of` says what they are.
 /// They come before `before`, after which things find free places of their own.
 #[must_use]

@@ -7,7 +7,8 @@ use super::prey;
 use super::round::Round;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
-use microsim_core::{Intent, Kind, OrganismView, View, World};
+use microsim_core::{Intent, Kind, OrganismView, View};
+use std::sync::Arc;
 
 /// Steps between two decisions.
 const INTERVAL: u64 = 10;
@@ -15,21 +16,26 @@ const INTERVAL: u64 = 10;
 /// The bot.
 #[derive(Clone, Debug)]
 pub struct SlideBot {
-    map: PathMap,
+    /// Never changed, so that bots are cheap to keep.
+    map: Arc<PathMap>,
+    /// Which of the players it is.
+    player: usize,
     intent: Intent,
 }
 
 impl SlideBot {
-    /// A bot for a round of a slide.
+    /// Bots for all players of a round of a slide.
     #[must_use]
-    pub fn new(world: &World) -> Self {
-        Self { map: PathMap::new(world), intent: Intent::REST }
+    pub fn all(round: &Round) -> Vec<Self> {
+        let map = Arc::new(PathMap::new(round.world()));
+        (0..round.players().count()).map(|player| Self { map: map.clone(), player, intent: Intent::REST }).collect()
     }
 
     /// What it does in the next step.
     pub fn intent(&mut self, round: &Round) -> Intent {
         if round.world().step_index().is_multiple_of(INTERVAL) {
-            let heading = round.world().centroid(round.player()).zip(target(round));
+            let cell = round.players().nth(self.player);
+            let heading = cell.and_then(|cell| round.world().centroid(cell)).zip(target(round, self.player));
             let next = heading.and_then(|(at, to)| Intent::toward(self.map.next(at, to)).ok());
             self.intent = next.unwrap_or(Intent::REST).digesting(true);
         }
@@ -38,16 +44,32 @@ impl SlideBot {
 }
 
 /// The nearest place or prey that a goal asks for, or food to grow on.
-fn target(round: &Round) -> Option<Vec2> {
+fn target(round: &Round, player: usize) -> Option<Vec2> {
     let view = round.world().view();
-    let player = view.organism(round.player())?;
-    let at = player.centroid();
+    let cell = view.organism(round.players().nth(player)?)?;
+    let at = cell.centroid();
     let open = round.attempt()?.goals().filter(|&(goal, done)| done < wanted(goal));
+    let mut is_first = true;
     let places = open.flat_map(|(goal, _)| match *goal {
         Goal::Reach { low, high } => vec![0.5 * (low + high)],
-        Goal::Digest { kind, .. } => prey_of(view, player, kind),
+        // All go for the same two places.
+        Goal::Together { places } if std::mem::take(&mut is_first) => {
+            share(round, player, places).into_iter().collect()
+        }
+        Goal::Together { .. } => Vec::new(),
+        Goal::Digest { kind, .. } => prey_of(view, cell, kind),
     });
     places.min_by(|a, b| (*a - at).length().total_cmp(&(*b - at).length()))
+}
+
+/// Which of two places a player goes to so that the sum of both ways is the shortest; none if two others are nearer.
+fn share(round: &Round, player: usize, places: [[Vec2; 2]; 2]) -> Option<Vec2> {
+    let middles = places.map(|[low, high]| 0.5 * (low + high));
+    let at: Vec<Vec2> = round.players().filter_map(|cell| round.world().centroid(cell)).collect();
+    let pairs = (0..at.len()).flat_map(|a| (0..at.len()).map(move |b| [a, b])).filter(|[a, b]| a != b);
+    let way = |[a, b]: &[usize; 2]| (at[*a] - middles[0]).length() + (at[*b] - middles[1]).length();
+    let pair = pairs.min_by(|one, other| way(one).total_cmp(&way(other)))?;
+    pair.iter().zip(middles).find(|(who, _)| **who == player).map(|(_, middle)| middle)
 }
 
 /// Where prey of a kind is that the player can take in now; where food is if there is none.

@@ -1,7 +1,7 @@
 //! Two under glass: two cells on one slide, which is data, `games/two-under-glass.toml`. Both are scored for themselves.
 
 use super::bot::{Bot, Policy};
-use super::seating::seat;
+use super::seating::{OBSTACLES, seat};
 use super::verdict::verdict;
 use crate::words::{Key, text_with};
 
@@ -10,8 +10,7 @@ pub const NAME: &str = "two-under-glass";
 /// Its scenario.
 pub const TEXT: &str = include_str!("../../games/two-under-glass.toml");
 
-/// Where the cells of the players end in it, and those of more players: the third is beside the first, the fourth beside the second.
-const OBSTACLES: &str = "# --- What is in their way";
+/// Cells of more players: the third is beside the first, the fourth beside the second.
 const MORE: [(usize, [f32; 2]); 2] = [(3, [24.0, 66.0]), (4, [120.0, 15.0])];
 
 /// How two cells play.

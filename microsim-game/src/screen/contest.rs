@@ -14,14 +14,16 @@ use crate::platform;
 use crate::rules::food_chain::Deed;
 use crate::rules::food_chain::change::Change;
 use crate::rules::round::Round;
+use crate::slides;
 use crate::store::files::PlayerFolder;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
+use microsim_core::scenario::Slide;
 use microsim_core::{Intent, OrganismId};
 use std::time::Duration;
 
 /// Time for which the player is told what to do, s.
-const ADVICE_TIME: f64 = 7.0;
+const ADVICE_TIME: f64 = 9.0;
 /// Time within which Escape leaves when it is pressed again, s.
 const LEAVING_TIME: f32 = 3.0;
 /// Time without a frame after which the player is told that others are waited for, s.
@@ -45,6 +47,8 @@ pub(super) struct Contest {
     viewer: Viewer,
     /// In the food chain the camera follows a cell; else the whole slide is seen.
     follow: Option<Follow>,
+    /// The slide that is played, in the language of the player.
+    slide: Option<Slide>,
     hands: Hands,
     taking: Taking,
     /// What is written on the key that divides the cell.
@@ -66,9 +70,11 @@ impl Contest {
         let followed = seen(&game).filter(|_| round.chain().is_some());
         let (follow, around) = followed.map(|cell| Follow::new(round, cell, screen)).unzip();
         let camera = around.unwrap_or_else(|| first_view(round.world(), None, 1.0, screen));
+        let slide = round.attempt().map(|attempt| slides::told(attempt.slide()));
         Self {
             viewer: Viewer::with_long_steps(round.world(), camera, game.session().steps()),
             follow,
+            slide,
             hands: Hands::default(),
             taking: Taking::default(),
             divide_key: context.settings.keys.label(Action::Divide),
@@ -149,10 +155,13 @@ impl Contest {
         }
         let verdict = self.game.plan().way.verdict(round, self.game.names());
         let verdict = ("verdict", (&verdict).into());
-        Some(match self.game.own() {
+        let told = match self.game.own() {
             Some(own) => words::text_with(Key::MatchEnd, &[verdict, ("player", (&player(own)).into())]),
             None => words::text_with(Key::MatchWatched, &[verdict]),
-        })
+        };
+        let is_done = round.attempt().is_some_and(|attempt| attempt.time().is_some());
+        let lesson = self.slide.as_ref().filter(|_| is_done);
+        Some(lesson.map_or(told.clone(), |slide| format!("{told} {} ({})", slide.fact, slide.source)))
     }
 
     /// The connection is cut: goes into the room again, for a while.
@@ -190,7 +199,7 @@ impl Contest {
         let round = self.game.session().round();
         let time = round.world().time();
         match living(&self.game) {
-            Some(own) if key == Key::MatchWatch && time < ADVICE_TIME => Some(player_advice(own)),
+            Some(own) if key == Key::MatchWatch && time < ADVICE_TIME => Some(player_advice(own, self.slide.as_ref())),
             Some(_) if key == Key::MatchWatch => round
                 .chain()
                 .and_then(|_| chain_scene::advice(time, &self.divide_key, platform::covered_height() > 0.0)),
@@ -264,6 +273,7 @@ impl Screen for Contest {
             }
         }
         places::draw_food(pen, &style, view);
+        places::draw_places(pen, &style, round);
         let mut taken = marks::MarkLayout::default();
         if round.chain().is_none() {
             self.gains.draw(pen, &style, &mut taken);
@@ -339,8 +349,9 @@ fn player(own: usize) -> String {
 }
 
 /// What a player is told at the beginning.
-fn player_advice(own: usize) -> String {
-    words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())])
+fn player_advice(own: usize, slide: Option<&Slide>) -> String {
+    let you = words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())]);
+    slide.map_or(you.clone(), |slide| format!("{} {you}", slide.task))
 }
 
 #[cfg(test)]

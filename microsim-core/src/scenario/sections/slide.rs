@@ -13,6 +13,8 @@ const TIME: [f32; 2] = [1.0, 3600.0];
 const MOST: f32 = 1000.0;
 /// Most words of a fact.
 const FACT_WORDS: usize = 40;
+/// Name of the cell of a second player.
+const SECOND: &str = "player-2";
 
 /// A short level: the player reaches all goals within a time. The sooner, the more stars.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,17 +35,22 @@ pub struct Slide {
     pub goals: Vec<Goal>,
 }
 
-/// One thing that the player of a slide has to do.
+/// One thing that the players of a slide have to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
-    /// To be in a box with its centre once.
+    /// That one of them is in a box with its centre once.
     Reach {
         /// Lower left corner of the box.
         low: Vec2,
         /// Upper right corner.
         high: Vec2,
     },
-    /// To digest prey.
+    /// That two of them are in two boxes at the same time, one in each.
+    Together {
+        /// Lower left and upper right corner of both, which do not overlap.
+        places: [[Vec2; 2]; 2],
+    },
+    /// That all of them together digest prey.
     Digest {
         /// Kind of the prey.
         kind: Kind,
@@ -115,32 +122,57 @@ fn read_stars(fields: &mut Fields<'_>, time: f32) -> [f32; 2] {
 
 fn read_goal(mut fields: Fields<'_>, groups: &[Group], size: Vec2) -> Option<Goal> {
     let reach: Option<[Vec2; 2]> = fields.get("reach");
+    let together: Option<[[Vec2; 2]; 2]> = fields.get("together");
     let digested: Option<String> = fields.get("digested");
     let count = fields.or("count", 1_u32);
     fields.is_within("count", count as f32, [1.0, MOST]);
-    let goal = match (reach, digested) {
-        (Some([low, high]), None) => {
+    let is_one = check_sort(&fields);
+    let goal = match (reach, together, digested) {
+        (Some([low, high]), ..) => {
             spawn::is_box_in("reach", &[low, high], size, &fields);
-            if fields.has("count") {
-                fields.refuse("count", "does not go with `reach`", "`digested` and `count`");
-            }
             Some(Goal::Reach { low, high })
         }
-        (None, Some(name)) => {
+        (_, Some(places), _) => {
+            check_places(&fields, &places, groups, size);
+            Some(Goal::Together { places })
+        }
+        (.., Some(name)) => {
             let kind = read_prey(&fields, &name).inspect(|&kind| check_supply(&fields, groups, kind, count));
             kind.map(|kind| Goal::Digest { kind, count })
         }
-        (Some(_), Some(_)) => {
-            fields.refuse("digested", "does not go with `reach`", "one of the two");
-            None
-        }
-        (None, None) => {
-            fields.context.refuse(&fields.path, "nothing to do", "`reach` or `digested`");
-            None
-        }
+        _ => None,
     };
     fields.finish();
-    goal
+    goal.filter(|_| is_one)
+}
+
+/// Whether a goal is of one sort; reports it if it is not.
+fn check_sort(fields: &Fields<'_>) -> bool {
+    let given: Vec<&str> = ["reach", "together", "digested"].into_iter().filter(|sort| fields.has(sort)).collect();
+    match given[..] {
+        [] => fields.context.refuse(&fields.path, "nothing to do", "`reach`, `together` or `digested`"),
+        [sort] if sort != "digested" && fields.has("count") => {
+            fields.refuse("count", format!("does not go with `{sort}`"), "`digested` and `count`");
+        }
+        [sort, other, ..] => fields.refuse(other, format!("does not go with `{sort}`"), "one of them"),
+        [_] => {}
+    }
+    given.len() == 1
+}
+
+/// Refuses boxes that one cell could be in alone, or that nobody else could be in.
+fn check_places(fields: &Fields<'_>, places: &[[Vec2; 2]; 2], groups: &[Group], size: Vec2) {
+    for (field, place) in ["together.0", "together.1"].into_iter().zip(places) {
+        spawn::is_box_in(field, place, size, fields);
+    }
+    let [[low, high], [other_low, other_high]] = places;
+    if low.cmplt(*other_high).all() && other_low.cmplt(*high).all() {
+        fields.refuse("together.1", "overlaps the other box", "two boxes apart from each other");
+    }
+    let is_second = |group: &Group| group.name.as_deref() == Some(SECOND) && group.prototype.can_grow();
+    if !groups.iter().any(is_second) {
+        fields.refuse("together", "one plays alone", format!("a [[spawn]] of an amoeboid_cell named `{SECOND}`"));
+    }
 }
 
 /// Refuses a goal for which there is not enough prey.
