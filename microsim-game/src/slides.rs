@@ -42,7 +42,7 @@ pub struct SharedSlide {
 pub static SHARED: &[SharedSlide] = &[
     shared(slide("both-poles", include_str!("../slides/both-poles.toml")), [[40.0, 14.0], [100.0, 66.0]]),
     shared(slide("sieve", include_str!("../slides/sieve.toml")), [[16.0, 16.0], [124.0, 64.0]]),
-    shared(slide("swarm", include_str!("../slides/swarm.toml")), [[12.0, 38.0], [138.0, 38.0]]),
+    shared(slide("swarm", include_str!("../slides/swarm.toml")), [[37.0, 38.0], [113.0, 38.0]]),
 ];
 
 const fn slide(name: &'static str, text: &'static str) -> BuiltinSlide {
@@ -68,7 +68,13 @@ impl BuiltinSlide {
         Scenario::parse(self.text, &[]).ok()?.slide().cloned()
     }
 
-    /// The same in the language of the player; the source of the fact stays as it is.
+    /// Its title in the language of the player.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.told().map_or_else(String::new, |slide| slide.title)
+    }
+
+    /// All of it in the language of the player; the source of the fact stays as it is.
     #[must_use]
     pub fn told(&self) -> Option<Slide> {
         let mut slide = self.read()?;

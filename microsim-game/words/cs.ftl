@@ -272,6 +272,8 @@ match-leave = Ještě jednou Escape: odejít ze zápasu
 match-net = { $ping } ms, ztráty { $loss } %, návraty { $back }, snímků nejvýš { $frames } z { $window }
 match-end = { $verdict }. Tvoje buňka: { $player }.
 match-watched = { $verdict }. Tentokrát jsi jen divák.
+match-slide-done = { $stars } za { $time } s
+match-slide-late = Čas vypršel: { $done }
 match-over = Zápas skončil.
 match-silent = Někdo neodpovídá, takže je to remíza.
 match-differs = Světy hráčů se před krokem { $step } rozešly, takže je to remíza.
@@ -447,6 +449,15 @@ slide-flood-fact = Bakterie, která přestane plavat, se setrvačností posune o
 slide-little-animals-title = Malá zvířátka
 slide-little-animals-task = Stráv čtyři koky, dvě tyčinky a nálevníka a pak se vrať domů ke značce.
 slide-little-animals-fact = Antoni van Leeuwenhoek viděl bakterie jako první, v roce 1676, jedinou čočkou menší než hrášek.
+slide-both-poles-title = Oba póly
+slide-both-poles-task = Buďte zároveň na obou koncích každé čáry, každý na jednom.
+slide-both-poles-fact = Než se buňka rozdělí, čekají její chromozomy uprostřed, až i poslední z nich drží oba póly: jediný volný zastaví všechny.
+slide-sieve-title = Síto
+slide-sieve-task = Stravte spolu všech osm bacilů. Sítem proklouznou, vy ne.
+slide-sieve-fact = Escherichia coli plave i kanálky jen o 30 procent širšími než ona. Těmi z poloviny užšími projde růstem a dělením.
+slide-swarm-title = Hejno
+slide-swarm-task = Stravte všech šest bacilů. Jsou stejně rychlí jako vy: jděte na ně z obou stran.
+slide-swarm-fact = Neutrofily loví v hejnech: ty, které najdou poškozenou tkáň první, vydávají leukotrien B4, a ten přivolá další zdaleka.
 
 ## Způsoby pozorování
 

@@ -9,14 +9,21 @@ use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
 use microsim_core::View;
 use microsim_core::glam::Vec2;
+use microsim_core::scenario::Goal;
 
-/// Draws a frame around each place, a thick one that is filled until a player was there; of places for two, while nobody is there.
-/// An arrow at the edge of the picture points to such a place outside.
+/// Draws a frame around each place, a thick one that is filled until a player was there; of two places to be held at the same time,
+/// which a line joins, while nobody is there. An arrow at the edge of the picture points to such a place outside.
 pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round) {
+    let unit = pen.line(TextSize::Body);
     let players: Vec<Vec2> = round.players().filter_map(|cell| round.world().centroid(cell)).collect();
     for (goal, done) in round.attempt().into_iter().flat_map(Attempt::goals) {
+        let is_open = done < wanted(goal);
+        if let (Goal::Together { places }, true) = (goal, is_open) {
+            let [a, b] = places.map(|[low, high]| style.camera.to_screen(0.5 * (low + high)));
+            pen.canvas().segment(a, b, 0.12 * unit, fade(READY, 0.5));
+        }
         for place in places(goal) {
-            draw_place(pen, style, place, done < wanted(goal) && !is_held(place, &players));
+            draw_place(pen, style, place, is_open && !is_held(place, &players));
         }
     }
 }

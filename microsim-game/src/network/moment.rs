@@ -2,6 +2,8 @@
 
 use crate::rules::bot::{Bot, Policy};
 use crate::rules::round::Round;
+use crate::rules::slide_bot::SlideBot;
+use microsim_core::{Intent, OrganismId};
 
 /// What going back cost, and what was sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,13 +28,33 @@ pub struct Tally {
 #[derive(Debug)]
 pub(super) struct Moment {
     pub round: Round,
-    pub bots: Vec<Bot>,
+    pub bots: Vec<Substitute>,
+}
+
+/// Who steers a cell whose player is not there.
+#[derive(Clone, Debug)]
+pub(super) enum Substitute {
+    Hunter(Bot),
+    OnSlide(SlideBot),
+}
+
+impl Substitute {
+    pub(super) fn intent(&mut self, round: &Round, cell: OrganismId) -> Intent {
+        match self {
+            Self::Hunter(bot) => bot.intent(round.world(), cell),
+            Self::OnSlide(bot) => bot.intent(round),
+        }
+    }
 }
 
 impl Moment {
-    /// The beginning, with a bot for each player: it steers when the player is not there.
+    /// The beginning, with a substitute for each player.
     pub(super) fn new(round: Round) -> Self {
-        let bots = (0..round.players().count()).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
+        let bots = if round.attempt().is_some() {
+            SlideBot::all(&round).into_iter().map(Substitute::OnSlide).collect()
+        } else {
+            (0..round.players().count()).map(|k| Substitute::Hunter(Bot::new(Policy::Greedy, k as u64))).collect()
+        };
         Self { round, bots }
     }
 }

@@ -109,6 +109,27 @@ fn the_first_member_chooses_the_frames_a_second_and_the_seed_for_all_and_for_who
     }
 }
 
+#[test]
+fn a_slide_is_played_in_a_room_and_a_bot_goes_to_the_place_of_who_left() {
+    let (mut players, boxes) = players(&["Ada", "Ben"]);
+    run(&mut players, 0..3);
+    let choose = |players: &mut [Player], slide| {
+        players[0].room.set_plan(Plan { way: Way::Slide(slide), ..Plan::default() });
+        players.iter_mut().for_each(|player| player.room.set_ready(true));
+    };
+    choose(&mut players, u8::MAX);
+    run(&mut players, 3..50);
+    assert!(players.iter().all(|player| player.current.is_none()), "no such slide");
+    choose(&mut players, 0);
+    run(&mut players, 50..60);
+    drop(players.pop());
+    boxes.borrow_mut()[0].push(Notice::Left(1));
+    run(&mut players, 60..400);
+    let session = players[0].current.as_ref().unwrap().session();
+    let places: Vec<u32> = session.round().attempt().unwrap().goals().map(|(_, done)| done).collect();
+    assert_eq!(places, [1, 0, 0]);
+}
+
 /// Two who play, and a member who comes to their room; the match that it is in is a new one.
 fn enter(players: &mut [Player], boxes: &Boxes, own: Member, news: Notice) -> Player {
     let others = vec![0, 1, 2].into_iter().filter(|&other| other != own && other < players.len() as Member).collect();

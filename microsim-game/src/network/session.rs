@@ -255,12 +255,12 @@ impl Session {
             if now.round.is_over() {
                 break;
             }
-            let world = now.round.world();
+            let round = &now.round;
             let players = told.iter().zip(&cells).zip(&mut now.bots);
             let intents: Vec<Intent> = players
                 .map(
                     |((told, cell), bot)| {
-                        if *told == Told::BOT { bot.intent(world, *cell) } else { told.intent(size) }
+                        if *told == Told::BOT { bot.intent(round, *cell) } else { told.intent(size) }
                     },
                 )
                 .collect();

@@ -53,7 +53,9 @@ fn target(round: &Round, player: usize) -> Option<Vec2> {
     let places = open.flat_map(|(goal, _)| match *goal {
         Goal::Reach { low, high } => vec![0.5 * (low + high)],
         // All go for the same two places.
-        Goal::Together { places } if std::mem::take(&mut is_first) => share(round, player, places).into_iter().collect(),
+        Goal::Together { places } if std::mem::take(&mut is_first) => {
+            share(round, player, places).into_iter().collect()
+        }
         Goal::Together { .. } => Vec::new(),
         Goal::Digest { kind, .. } => prey_of(view, cell, kind),
     });

@@ -10,14 +10,16 @@ use crate::input::{Action, Input, Move};
 use crate::network::contest::Match;
 use crate::platform;
 use crate::rules::round::Round;
+use crate::slides;
 use crate::store::files::PlayerFolder;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
 use microsim_core::Intent;
+use microsim_core::scenario::Slide;
 use std::time::Duration;
 
 /// Time for which the player is told what to do, s.
-const ADVICE_TIME: f64 = 7.0;
+const ADVICE_TIME: f64 = 9.0;
 /// Time within which Escape leaves when it is pressed again, s.
 const LEAVING_TIME: f32 = 3.0;
 /// Time without a frame after which the player is told that others are waited for, s.
@@ -39,6 +41,8 @@ const WORLD: &str = "desync.snapshot";
 pub(super) struct Contest {
     game: Match,
     viewer: Viewer,
+    /// The slide that is played, in the language of the player.
+    slide: Option<Slide>,
     hands: Hands,
     gains: marks::Gains,
     /// Frames that were waited for others.
@@ -55,9 +59,21 @@ impl Contest {
     pub(super) fn new(game: Match, context: &AppContext) -> Self {
         let (world, steps) = (game.session().round().world(), game.session().steps());
         let viewer = Viewer::with_long_steps(world, first_view(world, None, 1.0, context.pen.screen()), steps);
+        let slide = game.session().round().attempt().map(|attempt| slides::told(attempt.slide()));
         let (hands, gains) = (Hands::default(), marks::Gains::default());
         let (cut_since, retries_at) = (None, 0.0);
-        Self { game, viewer, hands, gains, waiting: 0, leaves_until: 0.0, shows_net: false, cut_since, retries_at }
+        Self {
+            game,
+            viewer,
+            slide,
+            hands,
+            gains,
+            waiting: 0,
+            leaves_until: 0.0,
+            shows_net: false,
+            cut_since,
+            retries_at,
+        }
     }
 
     fn run(&mut self, input: &Input, context: &mut AppContext) {
@@ -107,10 +123,13 @@ impl Contest {
         }
         let verdict = self.game.plan().way.verdict(round, self.game.names());
         let verdict = ("verdict", (&verdict).into());
-        Some(match self.game.own() {
+        let told = match self.game.own() {
             Some(own) => words::text_with(Key::MatchEnd, &[verdict, ("player", (&player(own)).into())]),
             None => words::text_with(Key::MatchWatched, &[verdict]),
-        })
+        };
+        let is_done = round.attempt().is_some_and(|attempt| attempt.time().is_some());
+        let lesson = self.slide.as_ref().filter(|_| is_done);
+        Some(lesson.map_or(told.clone(), |slide| format!("{told} {} ({})", slide.fact, slide.source)))
     }
 
     /// The connection is cut: goes into the room again, for a while.
@@ -147,7 +166,9 @@ impl Contest {
         };
         let time = self.game.session().round().world().time();
         match self.game.own() {
-            Some(own) if key == Key::MatchWatch => (time < ADVICE_TIME).then(|| player_advice(own)),
+            Some(own) if key == Key::MatchWatch => {
+                (time < ADVICE_TIME).then(|| player_advice(own, self.slide.as_ref()))
+            }
             _ => Some(words::text(key).to_owned()),
         }
     }
@@ -215,6 +236,7 @@ impl Screen for Contest {
             }
         }
         places::draw_food(pen, &style, view);
+        places::draw_places(pen, &style, round);
         let mut taken = marks::MarkLayout::default();
         self.gains.draw(pen, &style, &mut taken);
         if let Some(cell) = self.game.own().and_then(|own| round.players().nth(own)) {
@@ -263,8 +285,9 @@ fn player(own: usize) -> String {
 }
 
 /// What a player is told at the beginning.
-fn player_advice(own: usize) -> String {
-    words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())])
+fn player_advice(own: usize, slide: Option<&Slide>) -> String {
+    let you = words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())]);
+    slide.map_or(you.clone(), |slide| format!("{} {you}", slide.task))
 }
 
 #[cfg(test)]

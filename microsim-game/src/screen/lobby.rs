@@ -56,14 +56,14 @@ impl Lobby {
         let plan = room.plan();
         let rate = format!("{}/s", 60 / plan.rate.pacing().steps);
         let seed = room.seed().map_or_else(|| words::text(Key::RoomAnySeed).to_owned(), |seed| seed.to_string());
-        let way = words::text(plan.way.label()).to_owned();
-        let choices = [(Key::RoomPlay, way), (Key::RoomRate, rate), (Key::RoomSeed, seed)].map(|(key, value)| {
-            if room.leads() {
-                MenuItem::with(key, value)
-            } else {
-                MenuItem::new(format!("{}: {value}", words::text(key)))
-            }
-        });
+        let choices =
+            [(Key::RoomPlay, plan.way.label()), (Key::RoomRate, rate), (Key::RoomSeed, seed)].map(|(key, value)| {
+                if room.leads() {
+                    MenuItem::with(key, value)
+                } else {
+                    MenuItem::new(format!("{}: {value}", words::text(key)))
+                }
+            });
         let seats = (1..).zip(PLAYERS).zip(room.seats());
         let seats = seats.map(|((number, (colour, _)), seat)| MenuItem::new(seat_label(number, colour, seat)));
         let items = [MenuItem::switch(Key::RoomReady, room.is_ready())].into_iter().chain(choices);

@@ -103,7 +103,7 @@ pub enum MainScreen {
     Round,
     /// A new round of a game that was opened beside it, a file or one of the list of simulations.
     OtherGame,
-    /// A slide, by its place in the list.
+    /// A slide, by its place among all, those for two behind the others.
     Slide(usize),
     /// The food chain, with a seed.
     FoodChain(u64),

@@ -4,7 +4,7 @@ use super::context::AppContext;
 use super::page::MenuPage;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::{Action, Input, Move};
-use crate::slides::SLIDES;
+use crate::slides::{self, BuiltinSlide};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{Key, Label};
 
@@ -48,7 +48,7 @@ impl Screen for Pause {
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
         if let Paused::Slide(index) = self.paused {
-            let task = SLIDES.get(index).and_then(|slide| slide.told()).map(|slide| slide.task);
+            let task = slides::all().nth(index).and_then(BuiltinSlide::told).map(|slide| slide.task);
             self.page.draw_note(&mut context.pen, &task.unwrap_or_default());
         }
     }

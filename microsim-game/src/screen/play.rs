@@ -16,7 +16,7 @@ use crate::rules::game::GameChoice;
 use crate::rules::hint::Hints;
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
-use crate::slides::SLIDES;
+use crate::slides;
 use crate::sound::Cue;
 use crate::store::settings::Settings;
 use crate::ui::pen::Pen;
@@ -41,6 +41,8 @@ pub(super) struct Play {
     round: Round,
     /// What is played, to start it again.
     played: Paused,
+    /// The task of a slide, in the language of the player.
+    task: Option<String>,
     viewer: Viewer,
     gains: marks::Gains,
     /// What was heard in this frame.
@@ -70,7 +72,7 @@ impl Play {
     /// # Errors
     /// As for [`Play::start`].
     pub(super) fn slide(index: usize, context: &AppContext) -> Result<Self, String> {
-        let name = SLIDES.get(index).map_or("", |slide| slide.name);
+        let name = slides::all().nth(index).map_or("", |slide| slide.name);
         let game = GameChoice { source: name.into(), overrides: Vec::new(), seed: None };
         Ok(Self::new(game.round(new_seed(context))?, Paused::Slide(index), context))
     }
@@ -116,6 +118,7 @@ impl Play {
         let viewer = Viewer::new(world, camera);
         Self {
             bot: two.and_then(|way| way.bot(world.config().seed)),
+            task: round.attempt().map(|attempt| slides::told(attempt.slide()).task),
             round,
             played,
             viewer,
@@ -247,23 +250,17 @@ impl Play {
         Some((food_chain::summary(time, chain.size(cell), sisters), [reserve, FULL_RESERVE]))
     }
 
-    /// The task of a slide, in the language of the player.
-    fn task<'a>(&self, attempt: &'a Attempt) -> &'a str {
-        let Paused::Slide(index) = self.played else { return &attempt.slide().task };
-        let own = SLIDES.get(index).and_then(|slide| words::of_scene(slide.name, "task"));
-        own.unwrap_or(&attempt.slide().task)
-    }
-
     fn advice(&self, hints: &Hints, key: Option<&str>, has_buttons: bool) -> Option<String> {
         let time = self.round.world().time();
         if self.round.is_replay() {
             None
         } else if self.round.chain().is_some() {
             self.chain_advice(has_buttons)
-        } else if let Some(attempt) = self.round.attempt() {
-            let what = held_to_crawl(has_buttons);
-            let task = self.task(attempt);
-            (time < TASK_TIME).then(|| words::text_with(Key::HintTask, &[("task", task.into()), ("what", what.into())]))
+        } else if let Some(task) = &self.task {
+            let how = held_to_crawl(has_buttons);
+            let alone = || words::text_with(Key::HintTask, &[("task", task.into()), ("what", how.into())]);
+            let of_two = |_| format!("{task} {}", words::text(Key::HintTwoPlayers));
+            (time < TASK_TIME).then(|| self.two.map_or_else(alone, of_two))
         } else if let Some(key) = key.filter(|_| hints.can_digest() && self.round.referee().score() == 0) {
             Some(words::text_with(Key::HintDigest, &[("key", key.into())]))
         } else if time < ADVICE_TIME && matches!(self.two, Some(TwoPlayers::Versus | TwoPlayers::Together)) {
@@ -314,8 +311,8 @@ impl Screen for Play {
         if self.round.is_over() {
             let result = Box::new(self.round.result());
             return Next::Open(match (self.two, result.attempt.is_some(), result.life) {
+                (_, true, _) => Overlay::SlideEnd(result, self.played),
                 (Some(way), ..) => Overlay::TwoPlayersEnd(result, way, self.played),
-                (None, true, _) => Overlay::SlideEnd(result, self.played),
                 (None, false, Some(life)) => Overlay::FoodChainEnd(result, life, self.played),
                 (None, false, None) => Overlay::End(result, self.played),
             });
