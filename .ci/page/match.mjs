@@ -86,7 +86,7 @@ async function open(name, options) {
 const lobby = (page, members) => page.waitForFunction(
     (members) => {
         const items = document.querySelectorAll("#items button");
-        return items[0]?.textContent.startsWith("Ready") && items.length === 5 + members;
+        return items[0]?.textContent.startsWith("Ready") && items.length === 3 + members;
     }, members, { timeout: 180_000, polling: 20 });
 /** Picks "Ready" in the list that screen readers see. */
 const ready = (page) => page.evaluate(() => document.querySelector("#items button").click());

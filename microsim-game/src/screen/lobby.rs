@@ -13,12 +13,11 @@ use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{self, Key};
 use macroquad::input::KeyCode;
 
-/// Items before those who are there.
+/// Items before those who are there: the first member has one for each choice, others one for all, which does nothing.
 const READY: usize = 0;
 const WAY: usize = 1;
 const RATE: usize = 2;
 const SEED: usize = 3;
-const LEAVE: usize = 4;
 /// Greatest seed that can be typed; greater ones come from the command line.
 const GREATEST_SEED: u64 = 999_999;
 
@@ -53,17 +52,16 @@ impl Lobby {
     }
 
     fn show(&mut self, room: &Room) {
-        let plan = room.plan();
+        let (plan, seed) = (room.plan(), room.seed());
         let rate = format!("{}/s", 60 / plan.rate.pacing().steps);
-        let seed = room.seed().map_or_else(|| words::text(Key::RoomAnySeed).to_owned(), |seed| seed.to_string());
-        let choices =
-            [(Key::RoomPlay, plan.way.label()), (Key::RoomRate, rate), (Key::RoomSeed, seed)].map(|(key, value)| {
-                if room.leads() {
-                    MenuItem::with(key, value)
-                } else {
-                    MenuItem::new(format!("{}: {value}", words::text(key)))
-                }
-            });
+        let choices = if room.leads() {
+            let seed = seed.map_or_else(|| words::text(Key::RoomAnySeed).to_owned(), |seed| seed.to_string());
+            let all = [(Key::RoomPlay, plan.way.label()), (Key::RoomRate, rate), (Key::RoomSeed, seed)];
+            all.map(|(key, value)| MenuItem::with(key, value)).to_vec()
+        } else {
+            let seed = seed.map(|seed| format!(", {} {seed}", words::text(Key::RoomSeed))).unwrap_or_default();
+            vec![MenuItem::new(format!("{}, {rate}{seed}", plan.way.label()))]
+        };
         let seats = (1..).zip(PLAYERS).zip(room.seats());
         let seats = seats.map(|((number, (colour, _)), seat)| MenuItem::new(seat_label(number, colour, seat)));
         let items = [MenuItem::switch(Key::RoomReady, room.is_ready())].into_iter().chain(choices);
@@ -89,7 +87,7 @@ impl Screen for Lobby {
         match choice {
             Some(MenuChoice::Pick(READY) | MenuChoice::Less(READY)) => room.set_ready(!room.is_ready()),
             Some(choice) if room.leads() && change(room, choice) => {}
-            _ if input.step == Some(Move::Back) || choice == Some(MenuChoice::Pick(LEAVE)) => {
+            _ if input.step == Some(Move::Back) || choice == Some(MenuChoice::Pick(leave_at(room))) => {
                 context.room = None;
                 return Next::Show(MainScreen::Title);
             }
@@ -128,6 +126,11 @@ impl Screen for Lobby {
     fn is_at_stake(&self) -> bool {
         true
     }
+}
+
+/// The item after those of what is played.
+fn leave_at(room: &Room) -> usize {
+    if room.leads() { SEED + 1 } else { WAY + 1 }
 }
 
 /// Changes what is played next, as the menu says. Returns whether the item was one of those.
@@ -187,13 +190,13 @@ mod tests {
         assert_eq!(keys(Some(u64::MAX), &[KeyCode::Key9]), Some(u64::MAX));
     }
 
-    /// A way into a room in which nobody else is.
+    /// A way into a room as its member of this number, after those before it.
     #[derive(Debug)]
-    struct Alone;
+    struct Entered(Member);
 
-    impl Transport for Alone {
+    impl Transport for Entered {
         fn poll(&mut self) -> Vec<Notice> {
-            vec![Notice::Welcome { member: 0, others: Vec::new() }]
+            vec![Notice::Welcome { member: self.0, others: (0..self.0).collect() }]
         }
 
         fn send(&mut self, _: Member, _: &[u8]) {}
@@ -201,7 +204,7 @@ mod tests {
 
     #[test]
     fn the_menu_of_the_first_member_changes_what_is_played() {
-        let mut room = Room::new(Box::new(Alone), "ABCD", "Ada");
+        let mut room = Room::new(Box::new(Entered(0)), "ABCD", "Ada");
         assert!(room.update(0, 7, None).is_none() && room.leads());
         let mut after = |choices: &[MenuChoice]| {
             assert!(choices.iter().all(|&choice| change(&mut room, choice)));
@@ -214,6 +217,20 @@ mod tests {
         assert_eq!(after(&[MenuChoice::Pick(SEED); 3]).1, Some(2));
         assert_eq!(after(&[MenuChoice::Less(SEED)]).1, Some(1));
         assert_eq!(after(&[MenuChoice::Less(SEED); 2]), (quick, None));
-        assert!(!change(&mut room, MenuChoice::Pick(LEAVE)));
+        let leave = leave_at(&room);
+        assert!(!change(&mut room, MenuChoice::Pick(leave)));
+    }
+
+    #[test]
+    fn the_first_member_has_a_row_for_each_choice_and_others_one_for_all() {
+        for (member, rows) in [(0, 5), (2, 3)] {
+            let mut room = Room::new(Box::new(Entered(member)), "ABCD", "Ada");
+            assert!(room.update(0, 7, None).is_none());
+            let mut lobby = Lobby::new(None);
+            lobby.show(&room);
+            let items = &lobby.page.menu.items;
+            assert_eq!(items.len(), rows + usize::from(member) + 1, "rows, and members");
+            assert_eq!(items[leave_at(&room)].label, MenuItem::new(Key::RoomLeave).label);
+        }
     }
 }

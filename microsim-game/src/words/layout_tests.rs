@@ -258,6 +258,7 @@ fn the_lobby_fits_a_small_window() {
             let widths = halves.map(|half| measure(TextSize::Body, &half) + 0.5 * (layout.item.x - room));
             assert!(widths[0] <= 0.52 * layout.item.x && widths[1] <= 0.4 * layout.item.x, "{value}: {widths:?}");
         }
+        items.extend(Way::ALL.map(|way| format!("> {}, 60/s, {} 999999", way.label(), text(Key::RoomSeed))));
         items.extend(Way::ALL.map(|way| format!("> {}  {} >", text(Key::RoomPlay), way.label())));
         let notes = [Key::RoomComing, Key::RoomOtherVersion, Key::RoomPlays, Key::RoomIsReady, Key::RoomNotReady];
         for note in notes {
