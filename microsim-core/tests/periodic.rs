@@ -2,11 +2,10 @@
 #![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
 
 use microsim_core::glam::Vec2;
-use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
     AgarSpec, Collider, ContactReporting, Event, FluidBlockSpec, FluidMode, FluidParams, Inputs, JointEnd, JointKind,
-    JointSpec, Material, Node, Obstacle, OrganismId, OrganismSpec, Placement, PlateletSpec, QueryFilter, RedCellSpec,
-    Side, Sides, Template, TemplateId, World, WorldConfig,
+    JointSpec, Material, Node, OrganismId, OrganismSpec, Placement, PlateletSpec, QueryFilter, RedCellSpec, Side,
+    Sides, Template, TemplateId, World, WorldConfig,
 };
 
 const SIZE: Vec2 = Vec2::new(80.0, 60.0);
@@ -233,26 +232,6 @@ fn a_joint_holds_across_a_side() {
         ids.to_vec()
     });
     assert!(found[0] < 1e-3 && found[1] < 1e-3, "{found:?}");
-}
-
-#[test]
-fn an_obstacle_acts_on_both_sides_it_reaches_over() {
-    let mut world = room(around(), 10.0);
-    let shelf = Obstacle::new(SharedShape::cuboid(6.0, 1.0), Pose::translation(78.0, 20.0));
-    let id = world.add_obstacle(shelf).unwrap();
-    let balls = [76.0, 2.0].map(|x| world.spawn(&AgarSpec::default().into(), Placement::at(x, 25.0)).unwrap());
-    let beside = world.spawn(&AgarSpec::default().into(), Placement::at(8.0, 25.0)).unwrap();
-    assert!(world.spawn(&AgarSpec::default().into(), Placement::at(3.0, 20.0)).is_err(), "it is in the image");
-    run(&mut world, 180);
-    for ball in balls {
-        assert!((world.centroid(ball).unwrap().y - 22.0).abs() < 0.02, "{}", world.centroid(ball).unwrap());
-    }
-    assert!(world.centroid(beside).unwrap().y < 2.0);
-    let hit = world.queries().cast_ray(Vec2::new(2.0, 15.0), Vec2::Y, 30.0, &QueryFilter::default()).unwrap();
-    assert!(hit.collider == Collider::Obstacle(id) && (hit.distance - 4.0).abs() < 1e-3);
-    world.remove_obstacle(id).unwrap();
-    run(&mut world, 120);
-    assert!(balls.iter().all(|&ball| world.centroid(ball).unwrap().y < 2.1), "both fall");
 }
 
 #[test]

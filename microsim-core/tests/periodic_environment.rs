@@ -4,9 +4,9 @@
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::{math::Pose, shape::SharedShape};
 use microsim_core::{
-    Actuation, AgarSpec, CoccusSpec, Distance, Drain, Emitter, Event, FieldKind, FluidBlockSpec, FluidParams,
+    Actuation, AgarSpec, CoccusSpec, Collider, Distance, Drain, Emitter, Event, FieldKind, FluidBlockSpec, FluidParams,
     ForceField, Half, Inputs, Intent, JointEnd, JointKind, JointSpec, Node, Obstacle, ObstacleMotion, OrganismId,
-    Placement, ProbeSpec, Region, Side, Sides, Template, World, WorldConfig,
+    Placement, ProbeSpec, QueryFilter, Region, Side, Sides, Template, World, WorldConfig,
 };
 
 const SIZE: Vec2 = Vec2::new(80.0, 60.0);
@@ -38,6 +38,26 @@ fn at(world: &World, id: OrganismId) -> Vec2 {
 
 fn velocity(world: &World, id: OrganismId) -> Vec2 {
     world.view().organism(id).unwrap().velocity()
+}
+
+#[test]
+fn an_obstacle_acts_on_both_sides_it_reaches_over() {
+    let mut world = room(10.0);
+    let shelf = Obstacle::new(SharedShape::cuboid(6.0, 1.0), Pose::translation(78.0, 20.0));
+    let id = world.add_obstacle(shelf).unwrap();
+    let balls = [76.0, 2.0].map(|x| world.spawn(&AgarSpec::default().into(), Placement::at(x, 25.0)).unwrap());
+    let beside = world.spawn(&AgarSpec::default().into(), Placement::at(8.0, 25.0)).unwrap();
+    assert!(world.spawn(&AgarSpec::default().into(), Placement::at(3.0, 20.0)).is_err(), "it is in the image");
+    run(&mut world, &Inputs::new(), 180);
+    for ball in balls {
+        assert!((world.centroid(ball).unwrap().y - 22.0).abs() < 0.02, "{}", world.centroid(ball).unwrap());
+    }
+    assert!(world.centroid(beside).unwrap().y < 2.0);
+    let hit = world.queries().cast_ray(Vec2::new(2.0, 15.0), Vec2::Y, 30.0, &QueryFilter::default()).unwrap();
+    assert!(hit.collider == Collider::Obstacle(id) && (hit.distance - 4.0).abs() < 1e-3);
+    world.remove_obstacle(id).unwrap();
+    run(&mut world, &Inputs::new(), 120);
+    assert!(balls.iter().all(|&ball| world.centroid(ball).unwrap().y < 2.1), "both fall");
 }
 
 #[test]

@@ -65,7 +65,9 @@ impl Moment {
     pub(super) fn take(&mut self, told: &[Told], steps: u32, mut seen: impl FnMut(&Round)) {
         for (player, told) in told.iter().enumerate() {
             let deed = if *told == Told::BOT { Some(Deed::Choose(0)) } else { told.deed() };
-            deed.into_iter().for_each(|deed| self.round.act(player, deed));
+            if let Some(deed) = deed {
+                self.round.act(player, deed);
+            }
         }
         for _ in 0..steps {
             if self.round.is_over() {

@@ -169,8 +169,9 @@ impl Round {
     pub fn act(&mut self, player: usize, deed: Deed) {
         match deed {
             Deed::Choose(place) => {
-                let change = self.offer(player).and_then(|offer| offer.get(place).copied());
-                change.into_iter().for_each(|change| self.choose(player, change));
+                if let Some(change) = self.offer(player).and_then(|offer| offer.get(place).copied()) {
+                    self.choose(player, change);
+                }
             }
             Deed::Divide => self.divide(player),
         }

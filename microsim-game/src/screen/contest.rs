@@ -98,7 +98,9 @@ impl Contest {
         let offer = self.offer();
         let chosen = self.taking.take(input, &context.pen, offer).map(Deed::Choose);
         let divides = self.divides() && input.presses(Action::Divide);
-        chosen.or(divides.then_some(Deed::Divide)).into_iter().for_each(|deed| self.game.act(deed));
+        if let Some(deed) = chosen.or(divides.then_some(Deed::Divide)) {
+            self.game.act(deed);
+        }
     }
 
     fn look(&mut self, input: &Input, context: &AppContext) {
@@ -279,7 +281,9 @@ impl Screen for Contest {
             self.gains.draw(pen, &style, &mut taken);
         }
         let looked_at = seen(&self.game);
-        looked_at.into_iter().for_each(|cell| chain_scene::draw(pen, &style, round, view, cell));
+        if let Some(cell) = looked_at {
+            chain_scene::draw(pen, &style, round, view, cell);
+        }
         if let Some(cell) = self.game.own().and_then(|own| round.players().nth(own)) {
             draw_prey(pen, &style, &mut taken, round, view, cell);
         }

@@ -106,7 +106,9 @@ impl FoodChain {
         let line = line_of(cell);
         if cytoplasm(cell) <= LEAST || world.shrink(from, 1).is_err() {
             let _ = world.remove(from);
-            line.and_then(|line| self.lines.get_mut(line)).into_iter().for_each(|line| line.fate = Some(fate));
+            if let Some(line) = line.and_then(|line| self.lines.get_mut(line)) {
+                line.fate = Some(fate);
+            }
         }
     }
 
