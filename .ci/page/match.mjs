@@ -3,8 +3,8 @@
 // match is played by the command line. Firefox needs a screen, such as that of xvfb-run.
 //
 //   xvfb-run -a node match.mjs SERVER PAGE BOT FOLDER     SERVER: microsim with the feature `serve`; PAGE: the built folder
-//                                                    BOT: the game's example room_bot with the feature `webrtc`
-//                                                    FOLDER: where pictures and records are kept
+//                                                         BOT: the game's example room_bot with the feature `webrtc`
+//                                                         FOLDER: where pictures and records are kept
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import fs from "node:fs";
