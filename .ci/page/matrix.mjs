@@ -14,11 +14,12 @@ const [program, ...words] = process.argv.slice(2);
 async function run(words) {
     const answer = new TextEncoder().encode(["network_matrix", ...words].join("\n"));
     let memory;
+    const textAt = (at, length) => new TextDecoder().decode(new Uint8Array(memory.buffer, at, length));
     const env = {
         microsim_now: () => performance.now(),
         microsim_ask: () => answer.length,
         microsim_take: (to) => new Uint8Array(memory.buffer).set(answer, to),
-        microsim_tell: (_what, _whatLength, _name, _nameLength, text, length) => console.log(new TextDecoder().decode(new Uint8Array(memory.buffer, text, length))),
+        microsim_tell: (_what, _whatLength, _name, _nameLength, text, length) => console.log(textAt(text, length)),
     };
     const module = await WebAssembly.compileStreaming(fetch("program.wasm"));
     for (const { name } of WebAssembly.Module.imports(module)) env[name] ??= () => { throw new Error(name); };

@@ -11,9 +11,9 @@ import { freePort } from "./server.mjs";
 const LONG_ENOUGH = 3000;
 
 const port = await freePort();
-const relay = spawn("turnserver", ["-n", "--listening-ip=127.0.0.1", "--relay-ip=127.0.0.1", `--listening-port=${port}`, "--allow-loopback-peers",
-    "--lt-cred-mech", "--user=ada:right", "--realm=microsim", `--userdb=${folder}/users`, `--pidfile=${folder}/process`, "--no-tls", "--no-dtls", "--no-cli",
-    "--log-file=stdout"], { stdio: "ignore" });
+const relay = spawn("turnserver", ["-n", "--listening-ip=127.0.0.1", "--relay-ip=127.0.0.1", `--listening-port=${port}`,
+    "--allow-loopback-peers", "--lt-cred-mech", "--user=ada:right", "--realm=microsim", `--userdb=${folder}/users`,
+    `--pidfile=${folder}/process`, "--no-tls", "--no-dtls", "--no-cli", "--log-file=stdout"], { stdio: "ignore" });
 
 /** Two members of a room who may go by the TURN server alone. */
 async function members(password) {
