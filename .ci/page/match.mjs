@@ -1,16 +1,17 @@
-// A whole match in headless Chromium by data channels, against the real server: a page, another one as of a phone, and a bot outside
-// of the browser. One page is silent for 5 s, the phone is loaded again, and a third page comes late and watches. The record of the
-// match is played by the command line.
+// A whole match by data channels, against the real server: a page in headless Chromium, another one as of a phone, and a bot outside
+// of browsers. One page is silent for 5 s, the phone is loaded again, and a page in Firefox comes late and watches. The record of the
+// match is played by the command line. Firefox needs a screen, such as that of xvfb-run.
 //
-//   node match.mjs SERVER PAGE BOT FOLDER     SERVER: microsim with the feature `serve`; PAGE: the built folder
-//                                                    BOT: the game's example room_bot with the feature `webrtc`
-//                                                    FOLDER: where pictures and records are kept
+//   xvfb-run -a node match.mjs SERVER PAGE BOT FOLDER     SERVER: microsim with the feature `serve`; PAGE: the built folder
+//                                                         BOT: the game's example room_bot with the feature `webrtc`
+//                                                         FOLDER: where pictures and records are kept
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { once } from "node:events";
 import fs from "node:fs";
 import { createInterface } from "node:readline";
 import { chromium } from "playwright-core";
+import { serveRooms } from "./server.mjs";
+import { openTab } from "./tab.mjs";
 
 const [program, folder, bot, pictures] = process.argv.slice(2);
 const CODE = "MATCH";
@@ -20,14 +21,13 @@ const LAPTOP = { viewport: { width: 480, height: 270 } };
 const PHONE = { viewport: { width: 480, height: 240 }, deviceScaleFactor: 1, hasTouch: true, isMobile: true };
 
 fs.mkdirSync(pictures, { recursive: true });
-const server = spawn(program, ["--quiet", "serve", "--port", "0", "--listen", "127.0.0.1", "--page", folder]);
-const [line] = await once(server.stdout, "data");
-const address = new URL("/", String(line).trim());
+const { server, address } = await serveRooms(program, folder);
 const browser = await chromium.launch({
     executablePath: "/usr/bin/chromium",
     args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
         "--disable-background-timer-throttling", "--disable-renderer-backgrounding", "--disable-backgrounding-occluded-windows"],
 });
+const late = await openTab(LAPTOP.viewport);
 
 /** Times frames, counts what is sent and what comes by either way, without signals, and lets the page be cut off or draw nothing. */
 function watch() {
@@ -74,12 +74,16 @@ function watch() {
     });
 }
 
-async function open(name, options) {
+async function openPage(options) {
     const page = await (await browser.newContext(options)).newPage();
     page.on("pageerror", (error) => assert.fail(error));
-    await page.addInitScript(watch);
-    await page.goto(`${address.href}?room=${CODE}&name=${name}&optics=drawn`);
     return page;
+}
+
+/** Takes a page into the room. */
+async function enter(page, name) {
+    await page.addInitScript(watch);
+    await page.goto(`${address.origin}/?room=${CODE}&name=${name}&optics=drawn`);
 }
 
 /** Waits until a page shows the lobby with so many members. */
@@ -125,12 +129,14 @@ let program_of_bot;
 try {
     const robot = start("Bot", 1);
     program_of_bot = robot.process;
-    const phone = await open("Phone", PHONE);
+    const phone = await openPage(PHONE);
+    await enter(phone, "Phone");
     await lobby(phone, 2);
 
     // From the link to a cell that moves, without the time in which nothing is pressed.
     const began = Date.now();
-    const laptop = await open("Ada", LAPTOP);
+    const laptop = await openPage(LAPTOP);
+    await enter(laptop, "Ada");
     await lobby(laptop, 3);
     const shown = Date.now();
     await picture(laptop, "lobby");
@@ -160,14 +166,14 @@ try {
 
     // Nobody looks at them meanwhile: three pages that draw in software take a minute to the first picture of the third.
     for (const page of [laptop, phone]) await page.evaluate(() => draw(false));
-    const late = await open("Late", LAPTOP);
+    await enter(late, "Late");
     await lobby(late, 4);
     for (const page of [laptop, phone]) await page.evaluate(() => draw(true));
     await ready(late);
     await inMatch(late);
     await late.waitForTimeout(2000);
     await picture(late, "match-late");
-    console.log("ok: who comes late watches");
+    console.log(`ok: who comes late watches, in ${late.name}`);
 
     const pages = { laptop, phone, late };
     // Nobody looks meanwhile, and drawing in software is what takes the time.
@@ -177,6 +183,7 @@ try {
     await draw(true);
     await laptop.waitForTimeout(2000);
     for (const [name, page] of Object.entries(pages)) await picture(page, `end-${name}`);
+    assert.deepEqual(late.complaints, []);
     const [line, digest] = await robot.line(/^match 1 digest (\w+) .* desync None .*/, 60_000);
     const ofBot = fs.readFileSync(`${pictures}/bot.replay`).toString("base64");
     console.log(`    ${line}`);
@@ -191,6 +198,7 @@ try {
     console.log("ok: all have the same record at the end, no digest differed, and the command line plays it to the same one");
 } finally {
     program_of_bot?.kill("SIGKILL");
+    late.close();
     await browser.close();
     server.kill("SIGKILL");
 }

@@ -1,54 +1,10 @@
-// The page's side of rooms in headless Chromium, against the real server and under the page's own security policy. The program
-// is not needed: its place is taken by the memory that it would have.
+// The page's side of rooms, against the real server.
 //
 //   node rooms.mjs SERVER WEB FOLDER ECHO     SERVER: microsim with the feature `serve`; WEB: microsim-game/web; FOLDER: is emptied
 //                                             ECHO: the game's example room_echo with the feature `webrtc`
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { once } from "node:events";
-import fs from "node:fs";
-import { chromium } from "playwright-core";
-
-const [program, web, folder, echo] = process.argv.slice(2);
-fs.rmSync(folder, { recursive: true, force: true });
-fs.mkdirSync(folder, { recursive: true });
-for (const name of ["index.html", "host.js", "mesh.js", "style.css"]) fs.copyFileSync(`${web}/${name}`, `${folder}/${name}`);
-fs.writeFileSync(`${folder}/gl.js`, "let wasm_memory = { buffer: new ArrayBuffer(1 << 20) };");
-fs.writeFileSync(`${folder}/start.js`, `
-    import { functions } from "./host.js";
-    const put = (at, bytes) => (new Uint8Array(wasm_memory.buffer).set(bytes, at), [at, bytes.length]);
-    const text = (at, text) => put(at, new TextEncoder().encode(text));
-    globalThis.tell = (what, name, bytes) => functions.microsim_tell(...text(0, what), ...text(100, name), ...put(200, bytes));
-    globalThis.ask = (what, name) => {
-        const length = functions.microsim_ask(...text(0, what), ...text(100, name));
-        if (length < 0) return null;
-        functions.microsim_take(200);
-        return [...new Uint8Array(wasm_memory.buffer, 200, length)];
-    };
-    globalThis.enter = (number, code) => tell("enter room", number, new TextEncoder().encode(code));`);
-
-const server = spawn(program, ["--quiet", "serve", "--port", "0", "--listen", "127.0.0.1", "--page", folder]);
-const [line] = await once(server.stdout, "data");
-const address = new URL(String(line).trim());
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
-
-/** Counts what is sent by either way, without signals, and the connections that are made. */
-function count() {
-    globalThis.sent = { socket: 0, channel: 0, connections: 0 };
-    for (const [way, { prototype }] of Object.entries({ socket: WebSocket, channel: RTCDataChannel })) {
-        const { send } = prototype;
-        prototype.send = function (bytes) {
-            if (way === "channel" || bytes[1] !== 255) sent[way] += 1;
-            send.call(this, bytes);
-        };
-    }
-    globalThis.RTCPeerConnection = class extends RTCPeerConnection {
-        constructor(settings) {
-            super({ ...settings, ...globalThis.changed });
-            sent.connections += 1;
-        }
-    };
-}
+import { browser, close, echo, exchange, meshed, next, open as openAt, pair, serve } from "./members.mjs";
 
 /** Has channels send what no page sends. */
 function spoiled() {
@@ -59,54 +15,8 @@ function spoiled() {
     };
 }
 
-async function open(more = "", change = () => {}) {
-    const page = await (await browser.newContext()).newPage();
-    page.on("pageerror", (error) => assert.fail(error));
-    await page.addInitScript(change);
-    await page.addInitScript(count);
-    await page.goto(address.href + more);
-    await page.waitForFunction("globalThis.enter");
-    return page;
-}
-
-/** The next frame of a room. */
-async function next(page, number) {
-    const found = await page.waitForFunction((number) => ask("room", number), number, { timeout: 10_000 });
-    return found.jsonValue();
-}
-
-/** Members 0 and 1 of a new room. */
-async function pair(room, one, two) {
-    for (const page of [one, two]) {
-        await page.evaluate((room) => enter(room, room), room);
-        await next(page, room);
-    }
-    await next(one, room);
-}
-
-/** Sends 20 messages with numbers, sees that they arrive, and returns how many went which way. */
-async function exchange(room, from, to, receiver, length = 60) {
-    await from.evaluate(([room, receiver, length]) => {
-        sent.socket = sent.channel = 0;
-        for (let number = 0; number < 20; number += 1) tell("send", room, [receiver, number, ...Array(length - 1).fill(0)]);
-    }, [room, receiver, length]);
-    const come = new Set();
-    while (come.size < 20) {
-        const [, number, ...rest] = await next(to, room);
-        if (rest.length === length - 1) come.add(number);
-    }
-    const { socket, channel } = await from.evaluate(() => sent);
-    return [socket, channel];
-}
-
-/** Waits until what is said is not sent by the server any more. */
-async function meshed(room, from, receiver) {
-    await from.waitForFunction(([room, receiver]) => {
-        sent.socket = 0;
-        tell("send", room, [receiver, 0]);
-        return sent.socket === 0;
-    }, [room, receiver], { polling: 50, timeout: 10_000 });
-}
+const address = await serve();
+const open = (more = "", change) => openAt(address + more, change);
 
 try {
     const [one, two] = [await open(), await open()];
@@ -194,7 +104,7 @@ try {
     const tab = async (key) => {
         const page = await context.newPage();
         await page.addInitScript((key) => (sessionStorage.roomKey ??= key), key);
-        await page.goto(address.href);
+        await page.goto(address);
         await page.waitForTimeout(500);
         return page;
     };
@@ -214,7 +124,7 @@ try {
         page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => (relayed += payload[0] !== 255 && payload[1] !== 255)));
         const enter = () => page.evaluate((room) => globalThis.enter(room, room), room);
         if (room === "OFFERS") await enter().then(() => next(page, room));
-        const window = spawn(echo, [address.href, room], { stdio: "inherit" });
+        const window = spawn(echo, [address, room], { stdio: "inherit" });
         try {
             if (room === "ANSWERS") {
                 await page.waitForTimeout(500);
@@ -259,6 +169,5 @@ try {
     assert.equal(other, "connect-src");
     console.log("ok: a page speaks to no other server");
 } finally {
-    await browser.close();
-    server.kill("SIGKILL");
+    await close();
 }

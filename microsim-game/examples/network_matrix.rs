@@ -1,5 +1,5 @@
 //! What a match costs over networks of all kinds: `cargo run --release -p microsim-game --example network_matrix [FRAMES] [LATENCY]`,
-//! and over faulty ones: `... --example network_matrix [FRAMES] faults`.
+//! and over faulty ones: `... --example network_matrix [FRAMES] faults`. The same in a browser: `.ci/network-matrix`.
 //!
 //! The players of a row are computed on one thread, rows on all cores; they are printed as they are done. A row fails unless all
 //! get the world that one process computes alone.
@@ -9,6 +9,7 @@
 mod virtual_match;
 
 use microsim_game::network::pacing::Pacing;
+use microsim_game::platform;
 use std::sync::Mutex;
 use virtual_match::{Cut, Match, Weather};
 
@@ -24,16 +25,17 @@ struct Row {
 }
 
 fn main() {
-    let frames: f32 = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(10_000.0);
-    let only = std::env::args().nth(2);
+    let mut words = platform::arguments().skip(1).filter_map(|word| word.into_string().ok());
+    let frames: f32 = words.next().and_then(|text| text.parse().ok()).unwrap_or(10_000.0);
+    let only = words.next();
     let (sky, rows) = match only.as_deref() {
         Some("faults") => ("fault", faults()),
         only => ("one way, ms | loss", matrix(only.and_then(|text| text.parse().ok()))),
     };
-    println!(
+    platform::print(&format!(
         "| players | Hz | {sky} | frame p50/p99/max, ms | rollbacks | repeated a frame, most | waits, most | up, down B/s |"
-    );
-    println!("|{}", "---:|".repeat(8 + sky.matches('|').count()));
+    ));
+    platform::print(&format!("|{}", "---:|".repeat(8 + sky.matches('|').count())));
     let rows = Mutex::new(rows.into_iter());
     let next = || rows.lock().expect("no row fails with it").next();
     let work = || {
@@ -42,9 +44,10 @@ fn main() {
         }
     };
     std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+        for _ in 1..std::thread::available_parallelism().map_or(1, usize::from) {
             scope.spawn(work);
         }
+        work();
     });
 }
 
@@ -96,7 +99,7 @@ impl Row {
         // Of those who hear the first one, if that is what fails.
         let (session, seconds) = (&game.sessions[players - 1], game.now / 1000.0);
         let (tally, taken) = (session.tally(), session.frame() as f32);
-        println!(
+        platform::print(&format!(
             "| {players} | {hz} | {sky} | {:.1}/{:.1}/{:.1} | {:.0} % | {:.2}, {} | {:.1} %, {} | {:.0}, {:.0} |",
             part(0.5),
             part(0.99),
@@ -108,6 +111,6 @@ impl Row {
             game.longest_wait[players - 1],
             tally.sent as f32 / seconds,
             tally.received as f32 / seconds,
-        );
+        ));
     }
 }

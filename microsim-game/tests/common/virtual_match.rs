@@ -6,12 +6,13 @@ use microsim_game::network::pacing::Pacing;
 use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
 use microsim_game::network::transport::Member;
+use microsim_game::platform;
 use microsim_game::rules::bot::{Bot, Policy};
 use microsim_game::rules::food_chain::Deed;
 use microsim_game::rules::round::Round;
 use microsim_game::rules::two_players;
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Frames between two decisions of a bot: about as often as a hand turns.
 const DECISION: u32 = 6;
@@ -178,7 +179,7 @@ impl Match {
 
     /// A member's machine makes a frame.
     fn call(&mut self, member: usize) {
-        let began = Instant::now();
+        let began = platform::now();
         self.deliver(member);
         self.notice_those_who_left(member);
         let told = self.decide(member);
@@ -193,7 +194,7 @@ impl Match {
         self.waits[member] = if is_taken { 0 } else { self.waits[member] + 1 };
         self.longest_wait[member] = self.longest_wait[member].max(self.waits[member]);
         let (packets, guests) = (session.packets(self.now as u32), session.guest_packets(self.now as u32));
-        self.frame_ms.push(1000.0 * began.elapsed().as_secs_f64());
+        self.frame_ms.push(1000.0 * (platform::now() - began).as_secs_f64());
         for (seat, bytes) in packets {
             let to = self.sessions[member].successor(seat).map_or(seat, usize::from);
             self.post(member, to, bytes);
