@@ -45,13 +45,20 @@ pub(super) fn seen(round: &Round, player: Option<usize>) -> Option<OrganismId> {
     own.filter(is_there).or_else(|| round.players().find(is_there))
 }
 
-/// Marks how the bodies of all players have changed, and for one cell who can bite it and whom it can bite.
-pub(super) fn draw(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'_>, cell: OrganismId) {
+/// Marks how the bodies of all players have changed, and for one cell who can bite it and whom it can bite. Who plays it is told when
+/// it is bitten.
+pub(super) fn draw(
+    pen: &mut Pen,
+    style: &Style<'_>,
+    round: &Round,
+    view: View<'_>,
+    (cell, is_played): (OrganismId, bool),
+) {
     let Some(chain) = round.chain() else { return };
     food_chain::draw_others(pen, style, &threats_and_victims(view, cell));
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
-    if chain.is_bitten(cell) {
+    if is_played && chain.is_bitten(cell) {
         food_chain::draw_bitten(pen);
     }
 }

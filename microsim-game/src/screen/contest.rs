@@ -283,7 +283,7 @@ impl Screen for Contest {
         }
         let looked_at = seen(&self.game);
         if let Some(cell) = looked_at {
-            chain_scene::draw(pen, &style, round, view, cell);
+            chain_scene::draw(pen, &style, round, view, (cell, living(&self.game).is_some()));
         }
         if let Some(cell) = self.game.own().and_then(|own| round.players().nth(own)) {
             draw_prey(pen, &style, &mut taken, round, view, cell);

@@ -183,7 +183,7 @@ impl Play {
         }
         places::draw_food(pen, style, view);
         places::draw_places(pen, style, &self.round);
-        chain_scene::draw(pen, style, &self.round, view, seen);
+        chain_scene::draw(pen, style, &self.round, view, (seen, !self.round.is_replay()));
         marks::draw_held(pen, style, &mut taken, &hints.held);
         if self.round.chain().is_none() {
             self.gains.draw(pen, style, &mut taken);
