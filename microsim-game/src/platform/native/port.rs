@@ -56,11 +56,12 @@ impl Port {
         let (sender, receiver) = channel();
         let own = self.address;
         let look_up = move || {
-            // Nobody receives it when the room has been left meanwhile.
-            told.into_iter()
-                .take(MOST_HELPERS)
-                .filter_map(|told| told.find(own))
-                .try_for_each(|found| sender.send(found))
+            for found in told.into_iter().take(MOST_HELPERS).filter_map(|told| told.find(own)) {
+                // Nobody receives it when the room has been left meanwhile.
+                if sender.send(found).is_err() {
+                    return;
+                }
+            }
         };
         if thread::Builder::new().name("helpers".to_owned()).spawn(look_up).is_ok() {
             self.looked_up = Some(receiver);
