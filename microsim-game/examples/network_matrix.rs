@@ -1,5 +1,6 @@
 //! What a match costs over networks of all kinds: `cargo run --release -p microsim-game --example network_matrix [FRAMES] [LATENCY]`,
-//! and over faulty ones: `... --example network_matrix [FRAMES] faults`.
+//! and over faulty ones: `... --example network_matrix [FRAMES] faults`. What going back costs in a food chain and in a match for
+//! points, without a network, on Linux: `... --example network_matrix chain`.
 //!
 //! The players of a row are computed on one thread, rows on all cores; they are printed as they are done. A row fails unless all
 //! get the world that one process computes alone.
@@ -8,9 +9,20 @@
 #[allow(dead_code, reason = "the tests use the rest")]
 mod virtual_match;
 
+use microsim_core::Intent;
+use microsim_core::scenario::Scenario;
 use microsim_game::network::pacing::Pacing;
+use microsim_game::rules::bot::{Bot, Policy};
+use microsim_game::rules::food_chain::{self, Deed};
+use microsim_game::rules::round::Round;
+use microsim_game::rules::two_players;
 use std::sync::Mutex;
+use std::time::Instant;
 use virtual_match::{Cut, Match, Weather};
+
+/// Frames that are taken again at most, and the part of a match that has a row of its own, s.
+const WINDOW: usize = Pacing::USUAL.window as usize;
+const PART: f64 = 30.0;
 
 /// A match of so many players at so many frames a second.
 struct Row {
@@ -24,6 +36,9 @@ struct Row {
 }
 
 fn main() {
+    if std::env::args().nth(1).as_deref() == Some("chain") {
+        return going_back();
+    }
     let frames: f32 = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(10_000.0);
     let only = std::env::args().nth(2);
     let (sky, rows) = match only.as_deref() {
@@ -79,6 +94,68 @@ fn faults() -> Vec<Row> {
         Row { players, hz: 30, sky: sky.to_owned(), weather, silent }
     };
     [2, 4].into_iter().flat_map(|players| kinds.map(|kind| row(players, kind))).collect()
+}
+
+/// Prints what it costs to keep a moment, and to go back by the longest way, by match and part of it.
+fn going_back() {
+    println!("| match | players | from, s | keep, ms: p50 | back by ten frames, ms: p50/p99/max |");
+    println!("|---|---:|---:|---:|---:|");
+    for (name, players, text) in [2, 4].into_iter().flat_map(|players| {
+        [("points", players, two_players::text(players)), ("food chain", players, food_chain::text(players))]
+    }) {
+        let mut scenario = Scenario::parse(&text, &[]).expect("the scenario is sound");
+        scenario.set_seed(5);
+        let mut round = Round::new(&scenario).expect("it is a game");
+        let mut bots: Vec<Bot> = (0..players).map(|k| Bot::new(Policy::Greedy, k as u64)).collect();
+        let mut kept = vec![round.clone(); WINDOW + 1];
+        for part in 0.. {
+            let costs = played(&mut round, &mut bots, &mut kept, PART * f64::from(part + 1));
+            let [keep, back] = costs.map(|mut times| {
+                times.sort_by(f64::total_cmp);
+                times
+            });
+            let at = |times: &[f64], share: f64| times[((times.len() - 1) as f64 * share) as usize];
+            if back.is_empty() {
+                break;
+            }
+            println!(
+                "| {name} | {players} | {:.0} | {:.2} | {:.1}/{:.1}/{:.1} |",
+                PART * f64::from(part),
+                at(&keep, 0.5),
+                at(&back, 0.5),
+                at(&back, 0.99),
+                at(&back, 1.0),
+            );
+        }
+    }
+}
+
+/// Time that this thread has had on a processor, ms: other work on the machine does not count.
+fn processor_ms() -> f64 {
+    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux says how long a thread ran");
+    stat.split(' ').next().and_then(|nanoseconds| nanoseconds.parse().ok()).map_or(0.0, |time: f64| time / 1e6)
+}
+
+/// Plays until some time, and returns the times of keeping a moment, and of going back and taking all frames again.
+fn played(round: &mut Round, bots: &mut [Bot], kept: &mut [Round], until: f64) -> [Vec<f64>; 2] {
+    let mut times = [Vec::new(), Vec::new()];
+    while !round.is_over() && round.world().time() < until {
+        let cells: Vec<_> = round.players().collect();
+        let intents: Vec<Intent> =
+            bots.iter_mut().zip(cells).map(|(bot, cell)| bot.intent(round.world(), cell)).collect();
+        (0..bots.len()).for_each(|player| round.act(player, Deed::Choose(0)));
+        kept[0].clone_from(round);
+        let before = processor_ms();
+        round.clone_from(&kept[0]);
+        for moment in &mut kept[1..] {
+            (0..Pacing::USUAL.steps).for_each(|_| round.step_all(&intents));
+            let began = Instant::now();
+            moment.clone_from(round);
+            times[0].push(1000.0 * began.elapsed().as_secs_f64());
+        }
+        times[1].push(processor_ms() - before);
+    }
+    times
 }
 
 impl Row {
