@@ -34,7 +34,7 @@ pub(crate) fn scene() -> Scene {
 fn flagellum() -> Result<Template, Error> {
     let mut builder = Template::builder();
     for channel in 0..2 * WAVE {
-        assert_eq!(builder.channel([0.85, 1.15]), channel.into());
+        assert_eq!(builder.channel([0.85, 1.15]), u32::from(channel));
     }
     let rigid = |a, b, rest_length| Distance { a, b, rest_length, compliance: 0.0, damping: 0.0 };
     for column in 0..COLUMNS {

@@ -129,17 +129,37 @@ pub fn summary(time: f32, size: f32, sisters: usize) -> String {
     format!("{lived}  {}", words::text_with(Key::HudSecondLife, &[("sisters", (sisters as u32).into())]))
 }
 
-/// Writes that the player is being bitten.
+/// Writes that the player is being bitten, below the status.
 pub fn draw_bitten(pen: &mut Pen) {
-    let at = Vec2::new(0.5, 0.2) * pen.screen();
-    pen.label(at, TextSize::Large, Align::Centre, ALERT, words::text(Key::HudBitten));
+    let height = (0.2 * pen.screen().y).max(2.2 * pen.line(TextSize::Large));
+    pen.label(
+        Vec2::new(0.5 * pen.screen().x, height),
+        TextSize::Large,
+        Align::Centre,
+        ALERT,
+        words::text(Key::HudBitten),
+    );
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::camera::Camera;
+    use crate::hud::{Status, draw_status};
     use microsim_core::{AmoeboidCellSpec, Placement, World, WorldConfig};
+
+    #[test]
+    fn who_is_bitten_is_told_below_the_status_in_a_small_window_with_the_largest_text() {
+        let heights = |draw: fn(&mut Pen)| {
+            let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+            draw(&mut pen);
+            pen.canvas().corners().fold([f32::MAX, 0.0], |[low, high], (at, ..)| [low.min(at.y), high.max(at.y)])
+        };
+        let status =
+            heights(|pen| draw_status(pen, &Status { score: "1", time: [9.0, 60.0], is_calm: true, note: "" }));
+        let bitten = heights(draw_bitten);
+        assert!(status[1] <= bitten[0] && bitten[1] < 180.0, "{status:?} {bitten:?}");
+    }
 
     fn drawn(draw: impl Fn(&mut Pen, &Style<'_>)) -> Pen {
         let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));

@@ -54,6 +54,7 @@ impl Device {
                 .collect(),
             step: MOVES.into_iter().find(|(key, _)| is_key_pressed(*key)).map(|(_, step)| step).or(button_step),
             item: buttons.item,
+            place: None,
             key: get_last_key_pressed(),
             dropped: platform::dropped_files(),
             has_lost_focus: focus.is_lost,

@@ -42,7 +42,8 @@ pub struct Hand {
 }
 
 impl Hand {
-    /// Adds what they say to the input of a frame. In a scene the right button does not lead back: it divides.
+    /// Adds what they say to the input of a frame. In a scene the right button does not lead back: it divides; and the
+    /// cross names a place.
     pub fn add(&mut self, pads: &[Gamepad], is_scene: bool, input: &mut Input) {
         let farthest = pads.iter().map(|pad| pad.stick).max_by(|a, b| a.length().total_cmp(&b.length()));
         let stick = farthest.filter(|stick| stick.length() >= LEAST).map_or(Vec2::ZERO, Vec2::normalize_or_zero);
@@ -57,6 +58,7 @@ impl Hand {
         for button in down.into_iter().filter(|button| !before.contains(button)) {
             input.pressed.extend(action(button));
             input.step = input.step.or(step(button, is_scene));
+            input.place = input.place.or(place(button)).filter(|_| is_scene);
         }
     }
 }
@@ -79,6 +81,10 @@ fn step(button: PadButton, is_scene: bool) -> Option<Move> {
         PadButton::Left => Some(Move::Left),
         PadButton::Right => Some(Move::Right),
     }
+}
+
+fn place(button: PadButton) -> Option<usize> {
+    [PadButton::Left, PadButton::Up, PadButton::Right].iter().position(|&other| other == button)
 }
 
 #[cfg(test)]
@@ -122,5 +128,15 @@ mod tests {
         assert_eq!(read(&mut hand, Vec2::ZERO, &[East], false).step, Some(Move::Back));
         assert_eq!(read(&mut hand, Vec2::ZERO, &[East, Up], false).step, Some(Move::Up));
         assert_eq!(read(&mut hand, Vec2::ZERO, &[Right], false).step, Some(Move::Right));
+    }
+
+    #[test]
+    fn the_cross_names_one_of_three_places_in_a_scene_once() {
+        use PadButton::{Down, Left, Right, South, Up};
+        let place = |hand: &mut Hand, button, is_scene| read(hand, Vec2::ZERO, &[button], is_scene).place;
+        let mut hand = Hand::default();
+        let named = [Left, Left, Up, Right, Down, South].map(|button| place(&mut hand, button, true));
+        assert_eq!(named, [Some(0), None, Some(1), Some(2), None, None]);
+        assert_eq!(place(&mut hand, Up, false), None, "it moves through a menu");
     }
 }

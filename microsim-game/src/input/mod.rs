@@ -163,6 +163,8 @@ pub struct Input {
     pub step: Option<Move>,
     /// The item of a menu that is pointed at in another way than with the cursor.
     pub item: Option<usize>,
+    /// The left, middle or right one of three, by the cross of a gamepad in a scene.
+    pub place: Option<usize>,
     /// The key that went down in this frame, whatever it does.
     pub key: Option<KeyCode>,
     /// Files that were dropped on the window.

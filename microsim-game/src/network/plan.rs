@@ -5,7 +5,7 @@ use crate::rules::attempt::Attempt;
 use crate::rules::food_chain;
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
-use crate::rules::verdict::verdict;
+use crate::rules::verdict::chain_verdict;
 use crate::slides::{SHARED, SharedSlide};
 use crate::words::{Key, number, text, text_with};
 use microsim_core::scenario::Scenario;
@@ -77,9 +77,7 @@ impl Way {
         let scores = round.scores();
         match round.attempt() {
             Some(attempt) => slide_verdict(attempt),
-            None if self == Self::FoodChain => {
-                verdict([Key::ChainWins, Key::ChainDraw, Key::ChainDrawBest], &scores, names)
-            }
+            None if self == Self::FoodChain => chain_verdict(&scores, names),
             None => self.rules().verdict(&scores, names),
         }
     }

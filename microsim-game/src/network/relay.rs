@@ -9,7 +9,7 @@ const WELCOME: u8 = 0;
 pub(crate) const JOINED: u8 = 1;
 pub(crate) const LEFT: u8 = 2;
 const REFUSED: u8 = 3;
-const HELPERS: u8 = 4;
+pub(crate) const HELPERS: u8 = 4;
 pub(crate) const BACK: u8 = 5;
 /// First byte of what members tell each other to open channels; no message of the game begins with it.
 pub(crate) const SIGNAL: u8 = 0xff;

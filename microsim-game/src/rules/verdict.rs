@@ -21,14 +21,19 @@ pub fn verdict([win, draw, draw_of_best]: [Key; 3], scores: &[u32], names: &[Str
     }
 }
 
+/// What the end of a food chain of several lines says: whose lived longest.
+#[must_use]
+pub fn chain_verdict(lives: &[u32], names: &[String]) -> String {
+    verdict([Key::ChainWins, Key::ChainDraw, Key::ChainDrawBest], lives, names)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn who_lived_longest_is_named() {
-        let of =
-            |lives: &[u32]| verdict([Key::ChainWins, Key::ChainDraw, Key::ChainDrawBest], lives, &["Ada".to_owned()]);
+        let of = |lives: &[u32]| chain_verdict(lives, &["Ada".to_owned()]);
         assert_eq!(of(&[83, 61, 40]), "Ada lived longest, 83 s to 61, 40 s");
         assert_eq!(of(&[61, 83]), "Player 2 lived longest, 83 s to 61 s");
         assert_eq!(of(&[61, 61]), "A draw, all lived 61 s");

@@ -38,13 +38,71 @@ pub(super) fn status(round: &Round, cell: OrganismId) -> Option<(String, [f32; 2
     Some((food_chain::summary(time, chain.size(cell), line.saturating_sub(1)), [reserve, FULL_RESERVE]))
 }
 
-/// Marks how the bodies of all players have changed, and for one cell who can bite it and whom it can bite.
-pub(super) fn draw(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'_>, cell: OrganismId) {
+/// The cell that is looked at: that of a player, or of the first one who lives.
+pub(super) fn seen(round: &Round, player: Option<usize>) -> Option<OrganismId> {
+    let is_there = |cell: &OrganismId| round.world().view().organism(*cell).is_some();
+    let own = player.and_then(|player| round.players().nth(player));
+    own.filter(is_there).or_else(|| round.players().find(is_there))
+}
+
+/// Marks how the bodies of all players have changed, and for one cell who can bite it and whom it can bite. Who plays it is told when
+/// it is bitten.
+pub(super) fn draw(
+    pen: &mut Pen,
+    style: &Style<'_>,
+    round: &Round,
+    view: View<'_>,
+    (cell, is_played): (OrganismId, bool),
+) {
     let Some(chain) = round.chain() else { return };
     food_chain::draw_others(pen, style, &threats_and_victims(view, cell));
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
-    if chain.is_bitten(cell) {
+    if is_played && chain.is_bitten(cell) {
         food_chain::draw_bitten(pen);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use microsim_core::Intent;
+    use microsim_core::scenario::Scenario;
+
+    /// Two cells, of which the first starves sooner.
+    const TEXT: &str = r#"
+        schema = 1
+        name = "food-chain"
+        [game]
+        [world]
+        size = [90.0, 60.0]
+        [amoeboid_cell.small]
+        radii = [4.0, 4.0]
+        [amoeboid_cell.large]
+        radii = [9.0, 9.0]
+        [[spawn]]
+        of = "small"
+        player = true
+        at = [20.0, 30.0]
+        [[spawn]]
+        of = "large"
+        name = "player-2"
+        at = [70.0, 30.0]
+    "#;
+
+    #[test]
+    fn the_own_cell_is_looked_at_and_when_it_is_gone_that_of_the_first_who_lives() {
+        let mut round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
+        let cells: Vec<OrganismId> = round.players().collect();
+        let looked_at = |round: &Round| [Some(0), Some(1), None].map(|player| seen(round, player));
+        assert_eq!(looked_at(&round), [cells[0], cells[1], cells[0]].map(Some));
+        while round.world().view().organism(cells[0]).is_some() {
+            round.step_all(&[Intent::REST; 2]);
+        }
+        assert_eq!(looked_at(&round), [Some(cells[1]); 3]);
+        while !round.is_over() {
+            round.step_all(&[Intent::REST; 2]);
+        }
+        assert_eq!(looked_at(&round), [None; 3]);
     }
 }

@@ -154,6 +154,7 @@ impl Contest {
         }
         if let Some(record) = round.record() {
             context.keep_game(record, Ok(()));
+            context.last_seat = self.game.own().unwrap_or(0);
         }
         let verdict = self.game.plan().way.verdict(round, self.game.names());
         let verdict = ("verdict", (&verdict).into());
@@ -282,7 +283,7 @@ impl Screen for Contest {
         }
         let looked_at = seen(&self.game);
         if let Some(cell) = looked_at {
-            chain_scene::draw(pen, &style, round, view, cell);
+            chain_scene::draw(pen, &style, round, view, (cell, living(&self.game).is_some()));
         }
         if let Some(cell) = self.game.own().and_then(|own| round.players().nth(own)) {
             draw_prey(pen, &style, &mut taken, round, view, cell);
@@ -328,10 +329,7 @@ fn living(game: &Match) -> Option<usize> {
 
 /// The cell of this player, or of the first one who lives.
 fn seen(game: &Match) -> Option<OrganismId> {
-    let round = game.session().round();
-    let is_there = |cell: &OrganismId| round.world().view().organism(*cell).is_some();
-    let own = living(game).and_then(|own| round.players().nth(own));
-    own.or_else(|| round.players().find(is_there))
+    chain_scene::seen(game.session().round(), living(game))
 }
 
 /// Keeps the round of a match that came apart, as it was at a step, and gives it to the player. Says so.

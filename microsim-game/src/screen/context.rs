@@ -129,6 +129,8 @@ pub struct AppContext {
     pub files: Vec<SceneSource>,
     /// The last round that was played to its end, as a replay.
     pub last_game: Option<Vec<u8>>,
+    /// Which of its players this one was, as far as that is known.
+    pub(super) last_seat: usize,
     /// What was explained so far.
     pub(super) lessons: Lessons,
     /// The change of the body that was chosen, for the food chain below the choice.
@@ -175,6 +177,7 @@ impl AppContext {
             other_game: None,
             files,
             last_game,
+            last_seat: 0,
             lessons: Lessons::default(),
             chosen: None,
             party: Party::default(),
@@ -216,7 +219,7 @@ impl AppContext {
         if let Err(error) = kept.and(self.store.write(LAST_GAME, &record)) {
             self.tell_error(Key::LastGameUnkept, &error);
         }
-        self.last_game = Some(record);
+        (self.last_game, self.last_seat) = (Some(record), 0);
     }
 
     /// Notes an entry of the field guide as found.

@@ -1,4 +1,5 @@
-//! The end of a food chain: how long the cell lived, what ended it, and the way to the same water again.
+//! The end of a food chain: how long the cell lived, what ended it, and the way to the same water again. Of a match that is played
+//! again: whose line lived longest.
 
 use super::context::AppContext;
 use super::end_menu::{EndMenu, doubted, rank};
@@ -11,6 +12,7 @@ use crate::platform;
 use crate::rules::food_chain::{Fate, NAME};
 use crate::rules::prey;
 use crate::rules::round::{Life, RoundResult};
+use crate::rules::verdict::chain_verdict;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuLayout};
@@ -28,6 +30,7 @@ pub(super) struct FoodChainEnd {
     played: Paused,
     lines: Vec<(TextSize, Color, String)>,
     menu: EndMenu,
+    is_of_match: bool,
 }
 
 impl FoodChainEnd {
@@ -45,6 +48,11 @@ impl FoodChainEnd {
             context.keep_game(record, kept);
             place
         });
+        if result.scores.len() > 1 {
+            let told = doubted(chain_verdict(&result.scores, &[]), result.is_mismatch);
+            let (lines, menu) = (vec![(TextSize::Large, HALO, told)], EndMenu::new(&[Key::EndWatch, Key::Title]));
+            return Self { life, played, lines, menu, is_of_match: true };
+        }
         let lived = words::text_with(Key::ChainLived, &[("time", (life.time as u32).into())]);
         let mut lines = vec![(TextSize::Large, HALO, doubted(lived, result.is_mismatch))];
         lines.extend(place.map(|place| (TextSize::Body, READY, rank(place))));
@@ -57,7 +65,8 @@ impl FoodChainEnd {
         );
         let share = format!("{water} {again}");
         lines.push((TextSize::Small, fade(HALO, 0.85), share));
-        Self { life, played, lines, menu: EndMenu::new(&[Key::ChainSame, Key::ChainOther, Key::EndWatch, Key::Title]) }
+        let menu = EndMenu::new(&[Key::ChainSame, Key::ChainOther, Key::EndWatch, Key::Title]);
+        Self { life, played, lines, menu, is_of_match: false }
     }
 }
 
@@ -68,11 +77,12 @@ impl Screen for FoodChainEnd {
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         let again = || match self.played {
-            Paused::Round | Paused::OtherGame => self.played.restart(),
-            _ => Next::Show(MainScreen::FoodChain(self.life.seed)),
+            Paused::Replay if !self.is_of_match => Next::Show(MainScreen::FoodChain(self.life.seed)),
+            played => played.restart(),
         };
         let other: fn(&AppContext) -> Next = |context| Next::Show(MainScreen::FoodChain(new_seed(context)));
-        self.menu.lead(input, context, MENU_TOP, again, &[other, |_| Next::Show(MainScreen::Replay)])
+        let others: &[fn(&AppContext) -> Next] = &[other, |_| Next::Show(MainScreen::Replay)];
+        self.menu.lead(input, context, MENU_TOP, again, if self.is_of_match { &[] } else { others })
     }
 
     fn draw(&mut self, context: &mut AppContext) {

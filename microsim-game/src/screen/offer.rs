@@ -1,4 +1,5 @@
-//! Three changes that are offered while a match goes on: a box for each, which is taken by its number or a click.
+//! Three changes that are offered while a match goes on: a box for each, which is taken by its number, a click, or the cross of a
+//! gamepad.
 
 use crate::draw::palette::{HALO, READY};
 use crate::input::Input;
@@ -34,7 +35,7 @@ impl Taking {
         self.is_held = clicked.is_some() || self.is_held && input.is_held;
         input.is_held &= !self.is_held;
         input.is_clicked &= clicked.is_none();
-        clicked.or(typed.filter(|_| offer.is_some()))
+        clicked.or(typed.or(input.place).filter(|_| offer.is_some()))
     }
 }
 
@@ -103,6 +104,9 @@ mod tests {
             let key = |key| Input { key: Some(key), ..Input::default() };
             assert_eq!(taking.take(&mut key(keys[0]), &pen, Some(OFFER)), Some(k));
             assert_eq!(taking.take(&mut key(keys[1]), &pen, None), None, "nothing is offered");
+            let cross = || Input { place: Some(k), ..Input::default() };
+            assert_eq!(taking.take(&mut cross(), &pen, Some(OFFER)), Some(k));
+            assert_eq!(taking.take(&mut cross(), &pen, None), None, "nothing is offered");
         }
         let mut beside = Input { cursor: Vec2::ZERO, ..click(0) };
         assert_eq!(taking.take(&mut beside, &pen, Some(OFFER)), None);

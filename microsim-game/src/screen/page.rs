@@ -9,9 +9,11 @@ use crate::ui::pen::{Align, Pen};
 use crate::words::Label;
 use microsim_core::glam::Vec2;
 
-/// Share of the picture's height above the menu, and above the middle of the heading.
+/// Share of the picture's height above the menu, and above the middle of the heading, which is higher where a note between them would
+/// have no room for so many lines.
 const TOP: f32 = 0.3;
 const HEADING: f32 = 0.15;
+const NOTE: f32 = 3.0;
 /// Height of an item that has room for a picture, lines.
 const TALL: f32 = 2.6;
 /// How dark what lies below gets.
@@ -68,8 +70,7 @@ impl MenuPage {
     pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
         let (screen, line) = (pen.screen(), pen.line(TextSize::Small));
         let mut lines = pen.wrap(TextSize::Small, text, 0.9 * screen.x);
-        let room = (TOP - HEADING) * screen.y - 0.5 * pen.line(TextSize::Large);
-        let most = (room / line) as usize;
+        let most = note_lines(pen);
         if most < lines.len() {
             lines.truncate(most);
             if let Some(last) = lines.last_mut() {
@@ -83,6 +84,20 @@ impl MenuPage {
     }
 }
 
+/// Middle of the heading.
+fn heading_height(pen: &Pen) -> f32 {
+    let half = 0.5 * pen.line(TextSize::Large);
+    let above_note = TOP * pen.screen().y - NOTE * pen.line(TextSize::Small) - half;
+    (HEADING * pen.screen().y).min(above_note).max(half)
+}
+
+/// Most lines of a note.
+fn note_lines(pen: &Pen) -> usize {
+    let room = TOP * pen.screen().y - heading_height(pen) - 0.5 * pen.line(TextSize::Large);
+    // Against the rounding of a difference.
+    (room / pen.line(TextSize::Small) + 0.01) as usize
+}
+
 /// Darkens what lies below.
 pub(super) fn draw_shade(pen: &mut Pen) {
     let screen = pen.screen();
@@ -92,8 +107,44 @@ pub(super) fn draw_shade(pen: &mut Pen) {
 /// Darkens what lies below, and writes a heading.
 pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
     draw_shade(pen);
-    let at = Vec2::new(0.5, HEADING) * pen.screen();
+    let at = Vec2::new(0.5 * pen.screen().x, heading_height(pen));
     let fits = |size: &TextSize| pen.width(*size, text) <= 0.96 * pen.screen().x;
     let size = [TextSize::Large, TextSize::Body].into_iter().find(fits).unwrap_or(TextSize::Small);
     pen.write(at, size, Align::Centre, HALO, text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::verdict::chain_verdict;
+    use crate::ui::pen::wrap;
+    use crate::words::{self, Key, text, text_with};
+
+    #[test]
+    fn notes_of_the_lobby_are_seen_whole_in_a_small_window_with_the_largest_text() {
+        let (pen, measure) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+        for language in &words::LANGUAGES {
+            words::choose(language, || None);
+            let of_code = |key| text_with(key, &[("code", "ABCDEF012345".into())]);
+            let colour = text(Key::ColourOrange);
+            let player = text_with(Key::MatchPlayer, &[("number", 4.into()), ("colour", colour.into())]);
+            let verdict = chain_verdict(&[123, 101, 61, 40], &["Bartholomew".to_owned()]);
+            let said = [("verdict", (&verdict).into()), ("player", (&player).into())];
+            let news = text_with(Key::MatchEnd, &said);
+            let mut notes = [Key::RoomWaits, Key::RoomMatchOn, Key::RoomEntering].map(of_code).to_vec();
+            notes.push(text_with(Key::RoomAgain, &[("news", (&news).into())]));
+            for note in notes {
+                let lines = wrap(&note, |line| measure(TextSize::Small, line) <= 0.9 * pen.screen().x);
+                assert!(lines.len() <= note_lines(&pen), "{}: {lines:?}", language.code);
+            }
+        }
+    }
+
+    #[test]
+    fn a_heading_is_in_the_picture_and_higher_only_where_a_note_needs_it() {
+        let (pen, _) = Pen::measured(Vec2::new(1280.0, 720.0), 1.0);
+        assert_eq!(heading_height(&pen), HEADING * pen.screen().y);
+        let (pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+        assert!(heading_height(&pen) >= 0.5 * pen.line(TextSize::Large) && note_lines(&pen) >= 3);
+    }
 }

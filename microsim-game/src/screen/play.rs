@@ -23,8 +23,8 @@ use crate::store::settings::Settings;
 use crate::ui::pen::Pen;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
-use microsim_core::View;
 use microsim_core::replay::Replay;
+use microsim_core::{OrganismId, View};
 
 /// Time for which the player is told the task of a slide, and what to do, s.
 const TASK_TIME: f64 = 9.0;
@@ -45,6 +45,8 @@ pub(super) struct Play {
     /// What was heard in this frame.
     heard: Vec<Cue>,
     follow: Follow,
+    /// The player whose cell is looked at.
+    own: usize,
     hands: Hands,
     /// How two cells play, if it is a round of two, and who steers the second one in place of a player.
     two: Option<TwoPlayers>,
@@ -103,12 +105,16 @@ impl Play {
 
     fn new(round: Round, played: Paused, context: &AppContext) -> Self {
         let world = round.world();
-        let two = (round.players().count() > 1).then_some(match played {
+        // Of a match in the food chain one line is followed.
+        let is_of_lines = played == Paused::Replay && round.chain().is_some();
+        let two = (round.players().count() > 1 && !is_of_lines).then_some(match played {
             Paused::TwoPlayers(way) => way,
             _ => TwoPlayers::Versus,
         });
+        let own = if is_of_lines { context.last_seat } else { 0 };
         let screen = context.pen.screen();
-        let (follow, around) = Follow::new(&round, round.player(), screen);
+        let seen = chain_scene::seen(&round, Some(own)).unwrap_or(round.player());
+        let (follow, around) = Follow::new(&round, seen, screen);
         let camera = if two.is_some() { first_view(world, None, 1.0, screen) } else { around };
         let viewer = Viewer::new(world, camera);
         Self {
@@ -120,6 +126,7 @@ impl Play {
             gains: marks::Gains::default(),
             heard: Vec::new(),
             follow,
+            own,
             hands: Hands::default(),
             two,
             divide_key: context.settings.keys.label(Action::Divide),
@@ -152,31 +159,37 @@ impl Play {
         heard.for_each(|(_, name)| context.find(name));
     }
 
+    /// The cell that is looked at.
+    fn seen(&self) -> OrganismId {
+        chain_scene::seen(&self.round, Some(self.own)).unwrap_or(self.round.player())
+    }
+
     /// The camera follows the cell; of two cells it shows the whole slide.
     fn look(&mut self, input: &Input, context: &AppContext) {
         if self.two.is_some() {
             return;
         }
-        let steered = (input, self.hands.is_crawling);
-        self.follow.look(&mut self.viewer, (&self.round, self.round.player()), steered, context);
+        let (cell, steered) = (self.seen(), (input, self.hands.is_crawling));
+        self.follow.look(&mut self.viewer, (&self.round, cell), steered, context);
     }
 
     fn draw_marks(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>, hints: &Hints) {
         let mut taken = marks::MarkLayout::default();
+        let (seen, is_alone) = (self.seen(), self.round.players().count() == 1);
         for (k, id) in self.round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, style, cell, self.two.map(|_| k + 1), k == 0);
+                own::draw_own(pen, style, cell, (!is_alone).then_some(k + 1), k == self.own);
             }
         }
         places::draw_food(pen, style, view);
         places::draw_places(pen, style, &self.round);
-        chain_scene::draw(pen, style, &self.round, view, self.round.player());
+        chain_scene::draw(pen, style, &self.round, view, (seen, !self.round.is_replay()));
         marks::draw_held(pen, style, &mut taken, &hints.held);
         if self.round.chain().is_none() {
             self.gains.draw(pen, style, &mut taken);
         }
-        marks::draw_targets(pen, style, &mut taken, &targets_of(&self.round, view, self.round.player(), hints));
-        for other in self.round.players().skip(1) {
+        marks::draw_targets(pen, style, &mut taken, &targets_of(&self.round, view, seen, hints));
+        for other in self.round.players().filter(|other| *other != seen) {
             draw_prey(pen, style, &mut taken, &self.round, view, other);
         }
     }
@@ -196,7 +209,7 @@ impl Play {
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
         };
-        let life = chain_scene::status(&self.round, self.round.player()).filter(|_| self.two.is_none());
+        let life = chain_scene::status(&self.round, self.seen()).filter(|_| self.two.is_none());
         let (score, time) = life.unwrap_or_else(of_game);
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note });
     }
@@ -277,7 +290,7 @@ impl Screen for Play {
         if !context.is_top {
             return;
         }
-        let hints = Hints::of(view, self.round.player());
+        let hints = Hints::of(view, self.seen());
         let covered = platform::covered_height();
         let key = digestion_key(&context.settings, covered > 0.0);
         let time = context.motion();

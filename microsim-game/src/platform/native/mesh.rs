@@ -1,14 +1,13 @@
 //! Channels from this window to the other members of a room, without the server between (WebRTC): docs/network.md has the signals.
 //! What comes from another member may be anything.
 
+use super::port::Port;
 use super::way::{Signal, Way};
-use crate::network::relay::{BACK, JOINED, LEFT, MEMBERS, NOTICE, SIGNAL};
+use crate::network::relay::{BACK, HELPERS, JOINED, LEFT, MEMBERS, NOTICE, SIGNAL};
 use crate::network::transport::{Member, Notice};
 use std::fmt;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
+use std::net::IpAddr;
 use std::time::{Duration, Instant};
-use str0m::Input;
-use str0m::net::{Protocol, Receive};
 
 /// Most offers of a member; one may have been for who had this number before.
 const MOST_OFFERS: u8 = 3;
@@ -16,15 +15,12 @@ const MOST_OFFERS: u8 = 3;
 const PAUSE: Duration = Duration::from_secs(2);
 /// Longest signal, bytes.
 const LONGEST_SIGNAL: usize = 8192;
-/// Longest packet, bytes: that of an Ethernet.
-const LONGEST_PACKET: usize = 1500;
 /// Most packets that are taken at once.
 const MOST_PACKETS: usize = 2000;
 
 /// The channels of one room.
 pub(super) struct Mesh {
-    socket: UdpSocket,
-    address: SocketAddr,
+    port: Port,
     ways: [Option<Way>; MEMBERS as usize],
     /// How many offers have come, by member.
     offers: [u8; MEMBERS as usize],
@@ -35,20 +31,20 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    /// Channels that begin at the address from which the server is reached, or from which others would be if it is on this
-    /// machine; none if the system gives no socket.
+    /// Channels that begin at a port of this address; none if there is none.
     pub(super) fn new(own: IpAddr) -> Option<Self> {
-        let own = if own.is_loopback() { outward().unwrap_or(own) } else { own };
-        let socket = UdpSocket::bind((own, 0)).ok()?;
-        socket.set_nonblocking(true).ok()?;
-        let address = socket.local_addr().ok()?;
+        let port = Port::new(own)?;
         let (ways, offers, has_come) = (Default::default(), Default::default(), Default::default());
-        Some(Self { socket, address, ways, offers, has_come, next: [Instant::now(); MEMBERS as usize], attempts: 0 })
+        Some(Self { port, ways, offers, has_come, next: [Instant::now(); MEMBERS as usize], attempts: 0 })
     }
 
     /// Takes what the server has sent, and returns a frame that is to be sent to it.
     pub(super) fn take(&mut self, frame: &[u8]) -> Option<Vec<u8>> {
         let (member, signal) = match *frame {
+            [NOTICE, HELPERS, ref told @ ..] => {
+                self.port.ask(told);
+                return None;
+            }
             [NOTICE, kind @ (JOINED | LEFT | BACK), member] if member < MEMBERS => {
                 self.ways[usize::from(member)] = None;
                 // Who is there already offers a way to who comes.
@@ -63,9 +59,16 @@ impl Mesh {
         Some(signal_to(member, &signal?))
     }
 
-    /// Offers that had to wait, as frames that are to be sent.
-    pub(super) fn late_offers(&mut self) -> Vec<Vec<u8>> {
-        (0..MEMBERS).filter_map(|member| Some(signal_to(member, &self.offer(member)?))).collect()
+    /// Offers that had to wait, and what was found since they were made, as frames that are to be sent.
+    pub(super) fn late_signals(&mut self) -> Vec<Vec<u8>> {
+        let mut frames = Vec::new();
+        for found in self.port.drive(Instant::now()) {
+            let told =
+                (0..).zip(&mut self.ways).filter_map(|(member, way)| Some((member, way.as_mut()?.tell(&found)?)));
+            frames.extend(told.map(|(member, signal)| signal_to(member, &signal)));
+        }
+        frames.extend((0..MEMBERS).filter_map(|member| Some(signal_to(member, &self.offer(member)?))));
+        frames
     }
 
     /// Offers a way to a member who has come, if it is time.
@@ -76,7 +79,7 @@ impl Mesh {
         }
         (self.has_come[place], self.offers[place], self.next[place]) = (false, 0, now + PAUSE);
         self.attempts = self.attempts.wrapping_add(1);
-        let (way, offer) = Way::offer(self.attempts, self.address)?;
+        let (way, offer) = Way::offer(self.attempts, &self.port.candidates)?;
         self.ways[place] = Some(way);
         Some(offer)
     }
@@ -93,7 +96,7 @@ impl Mesh {
             return None;
         }
         (self.ways[place], self.has_come[place]) = (None, false);
-        let (way, answer) = Way::answer(signal, self.address)?;
+        let (way, answer) = Way::answer(signal, &self.port.candidates)?;
         self.ways[place] = Some(way);
         Some(answer)
     }
@@ -101,20 +104,16 @@ impl Mesh {
     /// What has come by channels.
     pub(super) fn poll(&mut self) -> Vec<Notice> {
         let now = Instant::now();
-        let mut packet = [0; LONGEST_PACKET];
         for _ in 0..MOST_PACKETS {
-            let Ok((length, source)) = self.socket.recv_from(&mut packet) else { break };
-            let Ok(contents) = packet[..length].try_into() else { continue };
-            let received = Receive { proto: Protocol::Udp, source, destination: self.address, contents };
-            let input = Input::Receive(now, received);
-            if let Some(way) = self.ways.iter_mut().flatten().find(|way| way.accepts(&input)) {
-                way.receive(input, &self.socket, now);
+            let Ok(packet) = self.port.receive(now) else { break };
+            if let Some(packet) = packet {
+                self.ways.iter_mut().flatten().any(|way| way.receive(&packet, &mut self.port, now));
             }
         }
         let mut notices = Vec::new();
         for (from, place) in (0..).zip(&mut self.ways) {
             let Some(way) = place else { continue };
-            way.drive(&self.socket, now);
+            way.drive(&mut self.port, now);
             notices.extend(way.messages().map(|bytes| Notice::Message { from, bytes }));
             if way.is_lost() {
                 *place = None;
@@ -126,13 +125,13 @@ impl Mesh {
     /// Sends a message by a channel, and returns whether it need not go by the server as well.
     pub(super) fn send(&mut self, to: Member, message: &[u8]) -> bool {
         let way = self.ways.get_mut(usize::from(to)).and_then(Option::as_mut);
-        way.is_some_and(|way| way.send(message, &self.socket, Instant::now()))
+        way.is_some_and(|way| way.send(message, &mut self.port, Instant::now()))
     }
 }
 
 impl fmt::Debug for Mesh {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Mesh").field("address", &self.address).finish_non_exhaustive()
+        f.debug_struct("Mesh").field("address", &self.port.address()).finish_non_exhaustive()
     }
 }
 
@@ -140,19 +139,14 @@ fn signal_to(member: Member, signal: &Signal) -> Vec<u8> {
     [&[member, SIGNAL][..], &signal.write()].concat()
 }
 
-/// The address of this machine in its network: the one that it would send from. Nothing is sent; the address to send to is
-/// one of those for documentation (RFC 5737).
-fn outward() -> Option<IpAddr> {
-    let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
-    socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9)).ok()?;
-    Some(socket.local_addr().ok()?.ip())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::net::Ipv4Addr;
+    use std::process::{Child, Command};
     use std::thread;
     use std::time::Duration;
+    use str0m::CandidateKind;
 
     const TIMEOUT: Duration = Duration::from_secs(20);
 
@@ -168,25 +162,35 @@ mod tests {
 
     /// Members 0 and 1, whose channel is open.
     fn meshed() -> (Mesh, Mesh) {
-        let (mut one, mut two) = pair();
+        let (one, two) = pair();
+        opened(one, two)
+    }
+
+    fn opened(mut one: Mesh, mut two: Mesh) -> (Mesh, Mesh) {
         let offer = one.take(&[NOTICE, JOINED, 1]).unwrap();
         let answer = two.take(&carried(0, &offer)).unwrap();
         assert_eq!(one.take(&carried(1, &answer)), None);
         let begin = Instant::now();
         while !(one.send(1, b"?") && two.send(0, b"?")) {
             assert!(begin.elapsed() < TIMEOUT, "no channel opens");
-            one.poll();
-            two.poll();
+            turn(&mut one);
+            turn(&mut two);
             thread::sleep(Duration::from_millis(1));
         }
         (one, two)
     }
 
+    /// What a room does in a frame; nothing is told that comes late.
+    fn turn(mesh: &mut Mesh) -> Vec<Notice> {
+        mesh.late_signals();
+        mesh.poll()
+    }
+
     fn next(mesh: &mut Mesh, other: &mut Mesh) -> Notice {
         let begin = Instant::now();
         loop {
-            other.poll();
-            let notices = mesh.poll();
+            turn(other);
+            let notices = turn(mesh);
             let found =
                 notices.into_iter().find(|notice| !matches!(notice, Notice::Message { bytes, .. } if bytes == b"?"));
             if let Some(notice) = found {
@@ -217,10 +221,10 @@ mod tests {
         for kind in [LEFT, JOINED, BACK] {
             assert_eq!(one.take(&[NOTICE, kind, 1]), None);
         }
-        assert!(one.late_offers().is_empty() && one.offers[1] == MOST_OFFERS);
+        assert!(one.late_signals().is_empty() && one.offers[1] == MOST_OFFERS);
         one.next[1] = Instant::now();
-        assert_eq!((one.late_offers().len(), one.offers[1]), (1, 0));
-        assert!(one.late_offers().is_empty());
+        assert_eq!((one.late_signals().len(), one.offers[1]), (1, 0));
+        assert!(one.late_signals().is_empty());
     }
 
     #[test]
@@ -263,5 +267,41 @@ mod tests {
         (0..9).for_each(|_| drop(one.take(&carried(3, &offer))));
         assert_eq!(one.offers[3], 9);
         assert!(one.take(&carried(3, &offer)).is_none(), "no more than three are answered");
+    }
+
+    /// A program that ends with its test.
+    struct Program(Child);
+
+    impl Drop for Program {
+        fn drop(&mut self) {
+            let _ = self.0.kill();
+            let _ = self.0.wait();
+        }
+    }
+
+    /// Both members are told to speak by the relay only.
+    #[test]
+    #[ignore = "needs coturn"]
+    fn a_relay_carries_what_finds_no_path() {
+        let (mut one, mut two) = pair();
+        let address = one.port.address();
+        let program = ["-n", "--lt-cred-mech", "--user=lab:secret", "--realm=lab", "--no-cli", "--log-file=/dev/null"];
+        let mut turnserver = Command::new("turnserver");
+        turnserver.args(program).args([format!("--listening-ip={}", address.ip()), "--listening-port=3479".to_owned()]);
+        let _turnserver = Program(turnserver.spawn().unwrap());
+        let told = format!(r#"[{{"urls":"turn:{}:3479","username":"lab","credential":"secret"}}]"#, address.ip());
+        let begin = Instant::now();
+        for mesh in [&mut one, &mut two] {
+            mesh.take(&[&[NOTICE, HELPERS], told.as_bytes()].concat());
+            while !mesh.port.candidates.iter().any(|known| known.kind() == CandidateKind::Relayed) {
+                assert!(begin.elapsed() < TIMEOUT, "{:?}", mesh.port.candidates);
+                turn(mesh);
+                thread::sleep(Duration::from_millis(1));
+            }
+            mesh.port.candidates.retain(|known| known.kind() == CandidateKind::Relayed);
+        }
+        let (mut one, mut two) = opened(one, two);
+        assert!(one.send(1, &[7; 1100]));
+        assert_eq!(next(&mut two, &mut one), Notice::Message { from: 0, bytes: vec![7; 1100] });
     }
 }

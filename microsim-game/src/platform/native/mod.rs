@@ -3,8 +3,12 @@
 #[cfg(windows)]
 mod console;
 mod gamepads;
+#[cfg(feature = "webrtc")]
+mod helper;
 #[cfg_attr(not(feature = "webrtc"), path = "no_mesh.rs")]
 mod mesh;
+#[cfg(feature = "webrtc")]
+mod port;
 mod room;
 mod speaker;
 mod storage;

@@ -15,7 +15,7 @@ impl Mesh {
         match *self {}
     }
 
-    pub(super) fn late_offers(&mut self) -> Vec<Vec<u8>> {
+    pub(super) fn late_signals(&mut self) -> Vec<Vec<u8>> {
         match *self {}
     }
 

@@ -173,9 +173,9 @@ impl Transport for Room {
             notices.extend(next);
         }
         if let State::Open(socket) = &mut self.state {
-            for offer in self.mesh.iter_mut().flat_map(Mesh::late_offers) {
+            for signal in self.mesh.iter_mut().flat_map(Mesh::late_signals) {
                 // As with messages below.
-                let _ = socket.send(Message::binary(offer));
+                let _ = socket.send(Message::binary(signal));
             }
         }
         notices.extend(self.mesh.iter_mut().flat_map(Mesh::poll));

@@ -1,9 +1,10 @@
 //! One channel to another member of a room.
 
-use std::net::{SocketAddr, UdpSocket};
+use super::port::{Packet, Port};
 use std::time::{Duration, Instant};
 use str0m::change::{SdpAnswer, SdpOffer, SdpPendingOffer};
 use str0m::channel::{ChannelConfig, ChannelId, Reliability};
+use str0m::net::{Protocol, Receive};
 use str0m::{Candidate, Event, Input, Output, Rtc};
 
 const OFFER: u8 = 0;
@@ -68,8 +69,8 @@ pub(super) struct Way {
 }
 
 impl Way {
-    pub(super) fn offer(attempt: u8, own: SocketAddr) -> Option<(Self, Signal)> {
-        let mut rtc = new_rtc(own)?;
+    pub(super) fn offer(attempt: u8, known: &[Candidate]) -> Option<(Self, Signal)> {
+        let mut rtc = new_rtc(known);
         let mut changes = rtc.sdp_api();
         let channel = changes.add_channel_with_config(config());
         let (offer, pending) = changes.apply()?;
@@ -78,9 +79,9 @@ impl Way {
     }
 
     /// A way that somebody has offered; none if what he says is of no use.
-    pub(super) fn answer(offer: &Signal, own: SocketAddr) -> Option<(Self, Signal)> {
+    pub(super) fn answer(offer: &Signal, known: &[Candidate]) -> Option<(Self, Signal)> {
         let description = SdpOffer::from_sdp_string(&offer.text).ok().filter(|_| offer.is_plain())?;
-        let mut rtc = new_rtc(own)?;
+        let mut rtc = new_rtc(known);
         let answer = rtc.sdp_api().accept_offer(description).ok()?;
         let channel = rtc.direct_api().create_data_channel(config());
         let signal = Signal { kind: ANSWER, attempt: offer.attempt, text: answer.to_sdp_string() };
@@ -117,17 +118,27 @@ impl Way {
         }
     }
 
-    pub(super) fn accepts(&self, input: &Input<'_>) -> bool {
-        self.rtc.accepts(input)
+    /// Tells the other member where else this one may be found.
+    pub(super) fn tell(&mut self, found: &Candidate) -> Option<Signal> {
+        let text = self.rtc.add_local_candidate(found.clone())?.to_sdp_string();
+        Some(Signal { kind: CANDIDATE, attempt: self.attempt, text })
     }
 
-    pub(super) fn receive(&mut self, input: Input<'_>, socket: &UdpSocket, now: Instant) {
+    /// Takes a packet, and returns whether it was for this way.
+    pub(super) fn receive(&mut self, packet: &Packet, port: &mut Port, now: Instant) -> bool {
+        let &Packet { source, destination, ref bytes } = packet;
+        let Ok(contents) = bytes[..].try_into() else { return false };
+        let input = Input::Receive(now, Receive { proto: Protocol::Udp, source, destination, contents });
+        if !self.rtc.accepts(&input) {
+            return false;
+        }
         self.is_lost |= self.rtc.handle_input(input).is_err();
-        self.drive(socket, now);
+        self.drive(port, now);
+        true
     }
 
     /// Does all that is due.
-    pub(super) fn drive(&mut self, socket: &UdpSocket, now: Instant) {
+    pub(super) fn drive(&mut self, port: &mut Port, now: Instant) {
         for _ in 0..MOST_OUTPUTS {
             if self.is_lost {
                 return;
@@ -135,8 +146,7 @@ impl Way {
             match self.rtc.poll_output() {
                 Ok(Output::Timeout(at)) if at > now => break,
                 Ok(Output::Timeout(_)) => self.is_lost |= self.rtc.handle_input(Input::Timeout(now)).is_err(),
-                // A packet that cannot be sent is one that is lost.
-                Ok(Output::Transmit(packet)) => drop(socket.send_to(&packet.contents, packet.destination)),
+                Ok(Output::Transmit(packet)) => port.send(&packet, now),
                 Ok(Output::Event(event)) => self.is_lost |= !self.note(event, now),
                 Err(_) => self.is_lost = true,
             }
@@ -174,7 +184,7 @@ impl Way {
     }
 
     /// Sends a message, and returns whether it need not go by the server as well.
-    pub(super) fn send(&mut self, message: &[u8], socket: &UdpSocket, now: Instant) -> bool {
+    pub(super) fn send(&mut self, message: &[u8], port: &mut Port, now: Instant) -> bool {
         if !self.is_connected || !self.is_open || self.is_lost || message.len() > LONGEST_MESSAGE {
             return false;
         }
@@ -182,15 +192,17 @@ impl Way {
         if channel.buffered_amount() > MOST_UNSENT || !matches!(channel.write(true, message), Ok(true)) {
             return false;
         }
-        self.drive(socket, now);
+        self.drive(port, now);
         now.duration_since(self.heard) < SILENCE
     }
 }
 
-fn new_rtc(own: SocketAddr) -> Option<Rtc> {
+fn new_rtc(known: &[Candidate]) -> Rtc {
     let mut rtc = Rtc::new(Instant::now());
-    rtc.add_local_candidate(Candidate::host(own, "udp").ok()?)?;
-    Some(rtc)
+    for candidate in known {
+        rtc.add_local_candidate(candidate.clone());
+    }
+    rtc
 }
 
 /// Number 0 on both sides, unordered, never sent again.
