@@ -1,13 +1,14 @@
 //! Sound that arrives at a real server; `.ci/sound` starts one.
 #![cfg(target_os = "linux")]
 
+#[path = "common/cues.rs"]
+mod cues;
+
+use cues::CUES;
 use microsim_game::sound::{Cue, Mixer, RATE};
 use std::fs::File;
 use std::path::Path;
 use std::process::Command;
-
-/// The cues that the example plays.
-const CUES: [Cue; 3] = [Cue::Second, Cue::Ingest, Cue::End];
 
 /// The samples of a cue, from the first that is heard to the last.
 fn samples_of(cue: Cue) -> Vec<f32> {
@@ -26,15 +27,16 @@ fn trimmed(samples: &[f32]) -> &[f32] {
     first.zip(last).map_or(&[], |(first, last)| &samples[first..=last])
 }
 
-/// What the server plays while the example `cues` runs, or the command that the variable names, such as its build for Windows under Wine.
+/// What the server plays while this program plays the cues, or the command that a variable names: the example for Windows, under Wine.
 fn recorded() -> Vec<f32> {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("heard.raw");
     let arguments =
         ["--device=microsim.monitor", "--format=float32le", "--rate=48000", "--channels=1", "--latency-msec=20"];
     let mut recorder = Command::new("parec").args(arguments).stdout(File::create(&file).unwrap()).spawn().unwrap();
-    let example = Path::new(env!("CARGO_BIN_EXE_microsim-game")).with_file_name("examples/cues");
-    let player = std::env::var("MICROSIM_CUES").unwrap_or_else(|_| example.display().to_string());
-    assert!(Command::new("sh").args(["-c", &player]).status().unwrap().success());
+    match std::env::var("MICROSIM_CUES") {
+        Ok(command) => assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success()),
+        Err(_) => cues::play(),
+    }
     recorder.kill().unwrap();
     recorder.wait().unwrap();
     let bytes = std::fs::read(file).unwrap();

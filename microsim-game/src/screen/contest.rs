@@ -20,6 +20,7 @@ use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
 use microsim_core::scenario::Slide;
 use microsim_core::{Intent, OrganismId};
+use std::ops::RangeInclusive;
 use std::time::Duration;
 
 /// Time for which the player is told what to do, s.
@@ -35,8 +36,9 @@ const LONGEST_WAIT: f32 = 30.0;
 /// Time for which a cut connection is tried again, s, and time between two trials, s.
 const RETURN_TIME: f32 = 30.0;
 const RETRY_INTERVAL: f32 = 2.0;
-/// Time of a frame in which one who comes late takes frames of the past.
-const CATCH_UP_TIME: Duration = Duration::from_millis(20);
+/// Share of a picture's time in which one who comes late takes frames of the past, and bounds of that time.
+const CATCH_UP_SHARE: f32 = 0.5;
+const CATCH_UP_TIME: RangeInclusive<Duration> = Duration::from_millis(20)..=Duration::from_millis(500);
 /// Files of a match that came apart.
 const RECORD: &str = "desync.replay";
 const WORLD: &str = "desync.snapshot";
@@ -117,7 +119,9 @@ impl Contest {
         let goal = game.own().and_then(|own| hands.goal(input, &viewer.camera, game.session().round(), own));
         let Some(room) = &mut context.room else { return };
         let began = platform::now();
-        while platform::now() - began < CATCH_UP_TIME && game.catch_up() {}
+        let (least, most) = CATCH_UP_TIME.into_inner();
+        let most = Duration::from_secs_f32(CATCH_UP_SHARE * pace.elapsed).clamp(least, most);
+        while platform::now() - began < most && game.catch_up() {}
         let mut heard = Vec::new();
         viewer.run(pace, 1.0, game, |game| {
             let round = game.session().round();
