@@ -1,5 +1,6 @@
 //! What a match costs over networks of all kinds: `cargo run --release -p microsim-game --example network_matrix [FRAMES] [LATENCY]`,
-//! and over faulty ones: `... --example network_matrix [FRAMES] faults`. The same in a browser: `.ci/network-matrix`.
+//! over faulty ones: `... --example network_matrix [FRAMES] faults`, and in a round of small cells and little food, whose steps take
+//! little time: `... --example network_matrix [FRAMES] light`. The same in a browser: `.ci/network-matrix`.
 //!
 //! The players of a row are computed on one thread, rows on all cores; they are printed as they are done. A row fails unless all
 //! get the world that one process computes alone.
@@ -8,10 +9,45 @@
 #[allow(dead_code, reason = "the tests use the rest")]
 mod virtual_match;
 
+use microsim_core::scenario::Scenario;
 use microsim_game::network::pacing::Pacing;
 use microsim_game::platform;
+use microsim_game::rules::round::Round;
 use std::sync::Mutex;
 use virtual_match::{Cut, Match, Weather};
+
+/// What a light round has, and where its cells begin.
+const LIGHT: &str = r#"
+    schema = 1
+    name = "light"
+    [game]
+    [world]
+    size = [60.0, 60.0]
+    [amoeboid_cell.hunter]
+    radii = [3.5, 3.5]
+    speed = 13.0
+    [amoeboid_cell.hunter.phagocytosis]
+    growth_yield = 0.0
+    [agar.pellet]
+    radius = 0.9
+    [[spawn]]
+    of = "pellet"
+    count = 8
+    respawn = 1.0
+"#;
+const PLACES: [(&str, [f32; 2]); 4] = [
+    ("player = true", [15.0, 15.0]),
+    ("name = 'player-2'", [45.0, 45.0]),
+    ("name = 'player-3'", [15.0, 45.0]),
+    ("name = 'player-4'", [45.0, 15.0]),
+];
+
+fn light_round(players: usize, seconds: f32) -> Round {
+    let cells = PLACES[..players].iter().map(|(name, at)| format!("[[spawn]]\nof = 'hunter'\n{name}\nat = {at:?}\n"));
+    let time = ("game.time".to_owned(), seconds.to_string());
+    let text = LIGHT.to_owned() + &cells.collect::<String>();
+    Round::new(&Scenario::parse(&text, &[time]).expect("the scenario is sound")).expect("it is a game")
+}
 
 /// A match of so many players at so many frames a second.
 struct Row {
@@ -38,9 +74,10 @@ fn main() {
     platform::print(&format!("|{}", "---:|".repeat(8 + sky.matches('|').count())));
     let rows = Mutex::new(rows.into_iter());
     let next = || rows.lock().expect("no row fails with it").next();
+    let round = if only.as_deref() == Some("light") { light_round } else { virtual_match::round };
     let work = || {
         while let Some(row) = next() {
-            row.print(frames);
+            row.print(frames, round);
         }
     };
     std::thread::scope(|scope| {
@@ -85,10 +122,11 @@ fn faults() -> Vec<Row> {
 }
 
 impl Row {
-    fn print(self, frames: f32) {
+    fn print(self, frames: f32, round: fn(usize, f32) -> Round) {
         let Self { players, hz, sky, weather, silent } = self;
         let pacing = if hz == 60 { Pacing::QUICK } else { Pacing::USUAL };
-        let mut game = Match::new(players, frames / hz as f32, pacing, weather, 1);
+        let seconds = frames / hz as f32;
+        let mut game = Match::of(round(players, seconds), seconds, pacing, weather, 1);
         let times = (2000..).step_by(5000).take(200);
         let cut = |(from, to): (usize, usize)| times.clone().map(move |at| Cut { from, to, time: at..at + 1000 });
         game.cuts = silent.into_iter().flat_map(cut).collect();

@@ -5,10 +5,10 @@ use microsim_game::sound::Cue;
 use std::thread::sleep;
 use std::time::Duration;
 
-pub const CUES: [Cue; 3] = [Cue::Second, Cue::Ingest, Cue::End];
+pub(crate) const CUES: [Cue; 3] = [Cue::Second, Cue::Ingest, Cue::End];
 
 /// Plays them one after the other.
-pub fn play() {
+pub(crate) fn play() {
     let mut speaker = Speaker::default();
     // The first one wakes the device, which may take two seconds.
     speaker.play(Cue::Fuse, 0.0);
