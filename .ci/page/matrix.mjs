@@ -1,7 +1,7 @@
 // What a match costs over networks of all kinds, in headless Chromium: the game's example `network_matrix`, of which the page is the
 // clock, the command line and the console.
 //
-//   node matrix.mjs PROGRAM [FRAMES [LATENCY | faults]]     PROGRAM: as .ci/wasm builds it
+//   node matrix.mjs PROGRAM [FRAMES [LATENCY | faults | light]]     PROGRAM: as .ci/wasm builds it
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
