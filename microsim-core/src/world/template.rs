@@ -4,7 +4,6 @@ use super::World;
 use super::change::WorldChange;
 use crate::float_environment::with_default_float_environment;
 use crate::id::TemplateId;
-use crate::shared::Shared;
 use crate::template::Template;
 use crate::template::projection::Projection;
 
@@ -46,12 +45,5 @@ impl World {
     pub(super) fn push_template(&mut self, template: Template) {
         self.projections.push(Projection::new(&template, self.config.substep()));
         self.templates.push(template);
-    }
-
-    /// Finds how all templates are projected, which is no part of the state.
-    pub(super) fn find_projections(&mut self) {
-        let h = self.config.substep();
-        let found = self.templates.iter().map(|template| Projection::new(template, h)).collect();
-        self.projections = Shared::new(found);
     }
 }

@@ -17,6 +17,7 @@ use crate::solver::block::Block;
 use crate::solver::fluid::Fluid;
 use crate::supply::Drain;
 use crate::template::Template;
+use crate::template::projection::Projection;
 use crate::world::contact_report::ContactReports;
 use crate::world::contacts::Touching;
 use crate::world::joint::JointRecord;
@@ -86,7 +87,8 @@ impl World {
         validate::structure::check(&world)
             .and_then(|()| validate::numbers::check(&world))
             .map_err(|violation| violation.to_string())?;
-        world.find_projections();
+        let h = world.config.substep();
+        world.projections = Shared::new(world.templates.iter().map(|template| Projection::new(template, h)).collect());
         // Measures need the pairs of the last step, which are not part of the state.
         if world.step_index > 0 {
             world.find_pairs();

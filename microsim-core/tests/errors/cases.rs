@@ -1,168 +1,17 @@
-//! Every public function that can fail, with each kind of error that it can give. Those for files: `file_errors.rs`.
-#![allow(clippy::disallowed_methods, reason = "tests measure; only stepping has to be bit-exact")]
+//! A line for each kind of error that each function can give.
 
-#[path = "common/sources.rs"]
-#[allow(dead_code, reason = "the tests of layering use all of it")]
-mod sources;
-
+use super::Case;
+use super::room::{Room, ball, build, circle, drain, emitter, obstacle, odd_cell, single, spec_error};
 use microsim_core::glam::Vec2;
 use microsim_core::parry2d::math::Pose;
 use microsim_core::parry2d::shape::SharedShape;
 use microsim_core::{
-    AccelerationGrid, Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalId, ChemicalSpec,
-    CoccusSpec, CollisionGroups, ContactReporting, Controller, Distance, Drain, DrainId, Emitter, EmitterId, Error,
-    ErrorKind, Exchange, FieldId, FieldKind, FleeParams, FluidBlockSpec, FluidParams, ForceField, Half, Inputs, Intent,
-    JointEnd, JointId, JointKind, JointSpec, LinkDrag, MinDistance, Node, Obstacle, ObstacleId, ObstacleMotion,
-    OrganismId, OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, Region,
-    RigidCellSpec, Rope, Template, TemplateBuilder, TemplateId, World, WorldConfig, YieldingDistance,
+    AccelerationGrid, Actuation, AgarSpec, AmoeboidCellSpec, Anchor, Area, BacillusSpec, ChemicalSpec, CoccusSpec,
+    CollisionGroups, ContactReporting, Controller, Distance, Emitter, Exchange, FleeParams, FluidBlockSpec,
+    FluidParams, Half, Inputs, Intent, JointEnd, JointKind, JointSpec, LinkDrag, MinDistance, Node, Obstacle,
+    OrganismSpec, PhagocytosisParams, Placement, PlateletSpec, ProbeSpec, Recipe, RedCellSpec, RigidCellSpec, Rope,
+    Template, World, WorldConfig, YieldingDistance,
 };
-use sources::sources;
-use std::collections::BTreeSet;
-use std::path::Path;
-
-/// A function, the kind of the error and the field that it names, and a call that gives it.
-type Case = (&'static str, &'static str, &'static str, fn(&mut Room) -> Error);
-
-/// A world with one organism of three kinds in it, and a handle that is stale.
-struct Room {
-    world: World,
-    cell: OrganismId,
-    agar: OrganismId,
-    stale: OrganismId,
-}
-
-impl Room {
-    fn new() -> Self {
-        let mut world = World::new(WorldConfig { max_particles: 1500, ..WorldConfig::default() }).unwrap();
-        let agar = AgarSpec::default().into();
-        let stale = world.spawn(&agar, Placement::at(30.0, 30.0)).unwrap();
-        world.remove(stale).unwrap();
-        let agar = world.spawn(&agar, Placement::at(30.0, 30.0)).unwrap();
-        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
-        world.add_obstacle(Obstacle::new(SharedShape::ball(4.0), Pose::translation(120.0, 45.0))).unwrap();
-        Self { world, cell, agar, stale }
-    }
-
-    fn spawn(&mut self, spec: impl Into<OrganismSpec>, placement: Placement) -> Error {
-        self.world.spawn(&spec.into(), placement).unwrap_err()
-    }
-
-    /// What spawning a small thing here is refused for.
-    fn spawn_at(&mut self, x: f32, y: f32) -> Error {
-        self.spawn(AgarSpec::default(), Placement::at(x, y))
-    }
-
-    /// A template that is too large for this room.
-    fn spawn_wide(&mut self) -> Error {
-        let mut builder = Template::builder();
-        (0..2).for_each(|k| _ = builder.node(Node::disc(Vec2::X * 500.0 * k as f32, 1.0, 1.0)));
-        let id = self.world.add_template(builder.build().unwrap());
-        self.world.spawn_template(id, Placement::at(20.0, 20.0)).unwrap_err()
-    }
-
-    /// What is wrong with inputs.
-    fn refuse(&self, tell: fn(&mut Inputs, &Self)) -> Error {
-        let mut inputs = Inputs::new();
-        tell(&mut inputs, self);
-        self.world.check_inputs(&inputs).unwrap_err()
-    }
-
-    /// A joint of the agar with the corner.
-    fn joint(&self, kind: JointKind) -> JointSpec {
-        JointSpec::new(JointEnd::Centre(self.agar), JointEnd::Point(Vec2::ZERO), kind)
-    }
-
-    fn stale_joint(&mut self) -> JointId {
-        let joint = self.world.add_joint(self.joint(JointKind::Weld)).unwrap();
-        self.world.remove_joint(joint).unwrap();
-        joint
-    }
-
-    fn stale_field(&mut self) -> FieldId {
-        let field = self.world.add_field(circle(1.0)).unwrap();
-        self.world.remove_field(field).unwrap();
-        field
-    }
-
-    fn stale_emitter(&mut self) -> EmitterId {
-        let id = self.world.add_emitter(emitter(1.0)).unwrap();
-        self.world.remove_emitter(id).unwrap();
-        id
-    }
-
-    fn stale_drain(&mut self) -> DrainId {
-        let id = self.world.add_drain(drain(1.0)).unwrap();
-        self.world.remove_drain(id).unwrap();
-        id
-    }
-
-    fn chemical(&mut self) -> ChemicalId {
-        self.world.add_chemical(ChemicalSpec::default()).unwrap()
-    }
-
-    /// Handle of an obstacle that is gone.
-    fn stale_obstacle(&mut self) -> ObstacleId {
-        let id = self.world.add_obstacle(ball(9.0)).unwrap();
-        self.world.remove_obstacle(id).unwrap();
-        id
-    }
-
-    fn kinematic(&mut self, is_enabled: bool) -> ObstacleId {
-        let obstacle = Obstacle { motion: ObstacleMotion::Push, is_enabled, ..ball(9.0) };
-        self.world.add_obstacle(obstacle).unwrap()
-    }
-
-    /// The error of spawning a template of one disc.
-    fn spawn_single(&mut self, placement: Placement) -> Error {
-        let id = single(&mut self.world);
-        self.world.spawn_template(id, placement).unwrap_err()
-    }
-}
-
-fn circle(radius: f32) -> ForceField {
-    let (region, acceleration) = (Region::Circle { centre: Vec2::ONE, radius }, Vec2::X);
-    ForceField { region, kind: FieldKind::Uniform { acceleration } }
-}
-
-fn emitter(rate: f32) -> Emitter {
-    Emitter::new(Region::All, Recipe::Organism(CoccusSpec::default().into()), rate)
-}
-
-fn drain(radius: f32) -> Drain {
-    Drain { region: Region::Circle { centre: Vec2::ONE, radius }, kind: None }
-}
-
-/// A template of one disc.
-fn single(world: &mut World) -> TemplateId {
-    let mut builder = Template::builder();
-    builder.node(Node::disc(Vec2::ZERO, 1.0, 1.0));
-    world.add_template(builder.build().unwrap())
-}
-
-fn obstacle(shape: SharedShape, x: f32) -> Obstacle {
-    Obstacle::new(shape, Pose::translation(x, 10.0))
-}
-
-fn ball(x: f32) -> Obstacle {
-    obstacle(SharedShape::ball(1.0), x)
-}
-
-fn spec_error(spec: impl Into<OrganismSpec>) -> Error {
-    spec.into().validate().unwrap_err()
-}
-
-/// A cell with a front that has no opposite.
-fn odd_cell() -> OrganismSpec {
-    RigidCellSpec { satellites: 9, ..RigidCellSpec::default() }.into()
-}
-
-/// Building two discs and something else.
-fn build(change: fn(&mut TemplateBuilder)) -> Error {
-    let mut builder = Template::builder();
-    (0..2).for_each(|k| _ = builder.node(Node::disc(Vec2::X * k as f32, 1.0, 0.5)));
-    change(&mut builder);
-    builder.build().unwrap_err()
-}
 
 const SPRING: Distance = Distance { a: 0, b: 1, rest_length: 1.0, compliance: 1e-3, damping: 0.0 };
 
@@ -174,7 +23,7 @@ fn nested() -> Controller {
 const AT: fn(f32, f32) -> Placement = Placement::at;
 
 #[rustfmt::skip]
-const CASES: &[Case] = &[
+pub(crate) const CASES: &[Case] = &[
     ("WorldConfig::validate", "OutOfRange", "dt", |_| WorldConfig { dt: 0.0, ..WorldConfig::default() }.validate().unwrap_err()),
     ("World::new", "OutOfRange", "substeps", |_| World::new(WorldConfig { substeps: 0, ..WorldConfig::default() }).unwrap_err()),
     ("Intent::toward", "OutOfRange", "goal.x", |_| Intent::toward(Vec2::NAN).unwrap_err()),
@@ -367,51 +216,3 @@ const CASES: &[Case] = &[
     ("World::move_obstacle", "OutOfRange", "target.translation.y", |r| { let id = r.kinematic(true); r.world.move_obstacle(id, Pose::translation(0.0, f32::NAN)).unwrap_err() }),
     ("World::move_obstacle", "OutOfRange", "target.rotation", |r| { let id = r.kinematic(true); r.world.move_obstacle(id, Pose::rotation(2.0)).unwrap_err() }),
 ];
-
-fn kind_of(error: &Error) -> &'static str {
-    match error.kind() {
-        ErrorKind::OutOfRange { .. } => "OutOfRange",
-        ErrorKind::BadReference { .. } => "BadReference",
-        ErrorKind::OutsideWorld { .. } => "OutsideWorld",
-        ErrorKind::Overlap { .. } => "Overlap",
-        ErrorKind::TooMany { .. } => "TooMany",
-        ErrorKind::Stale => "Stale",
-        ErrorKind::Unsupported { .. } => "Unsupported",
-        _ => "a kind that this test does not know",
-    }
-}
-
-#[test]
-fn every_kind_of_error_names_its_field_and_changes_nothing() {
-    for &(function, kind, field, call) in CASES {
-        let mut room = Room::new();
-        let error = call(&mut room);
-        assert_eq!((kind_of(&error), error.field()), (kind, field), "{function}: {error}");
-        assert!(error.to_string().contains(field), "{function}: {error}");
-        assert_eq!(room.world.organisms().count(), 2, "{function} has changed the world");
-        room.world.validate().unwrap();
-    }
-}
-
-/// Names of public functions in a source that return the core's error.
-fn fallible(text: &str) -> Vec<String> {
-    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-    let signature = |rest: &str| rest.split(['{', ';']).next().unwrap_or_default().to_owned();
-    let signatures = code.split("pub fn ").skip(1).map(signature).filter(|signature| signature.contains(", Error>"));
-    signatures.map(|signature| signature.split(['(', '<']).next().unwrap_or_default().to_owned()).collect()
-}
-
-#[test]
-fn no_function_that_can_fail_is_missing() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let listed: BTreeSet<&str> = CASES.iter().filter_map(|case| case.0.split("::").last()).collect();
-    let mut count = 0;
-    // Pictures have refusals of their own, tested in tests/microscope.rs.
-    for source in sources(&root).iter().filter(|source| source.module() != "microscope") {
-        for name in fallible(&std::fs::read_to_string(root.join(&source.path)).unwrap()) {
-            count += 1;
-            assert!(listed.contains(name.as_str()), "`{name}` of {} is not in CASES", source.path.display());
-        }
-    }
-    assert!(count >= 18, "only {count} functions found: does the search still work?");
-}
