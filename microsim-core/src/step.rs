@@ -1,7 +1,7 @@
 //! The step, as a table of contents: the order of its phases, and what each hands to which function elsewhere. The names are
 //! those of [`Phase`].
 
-use crate::behavior::{actuation, division, exchange, phagocytosis, sensing, steer_organisms};
+use crate::behavior::{actuation, exchange, furrow_pull, phagocytosis, sensing, steer_organisms};
 use crate::capability::controller::senses;
 use crate::float_environment::with_default_float_environment;
 use crate::inputs::Inputs;
@@ -164,7 +164,7 @@ fn steer(world: &mut World, inputs: &Inputs) {
     drive::begin_tows(&scratch.tows, particles);
     phagocytosis::draw_in_prey(organisms, particles, &mut scratch.drives);
     scratch.contractions.clear();
-    division::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
+    furrow_pull::draw_furrows(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     phagocytosis::lips::drive_lips(organisms, particles, &mut scratch.drives, &mut scratch.contractions);
     organisms.for_each_with_membrane(|organism| organism.relax_membrane(particles, fluids, config.dt));
     scratch.forces.clear();

@@ -77,7 +77,7 @@ fn snapshots() {
     let mut run = checkpoint();
     run.run.world = hilly();
     assert_eq!(kind(run.to_bytes().unwrap_err()), "UnknownShape");
-    assert_eq!(kinds, variants(include_str!("../src/snapshot/mod.rs"), "SnapshotError"));
+    assert_eq!(kinds, variants(include_str!("../src/snapshot/error.rs"), "SnapshotError"));
 }
 
 /// A run of the room: no steps.

@@ -2,9 +2,9 @@
 
 pub(crate) mod actuation;
 pub(crate) mod crawl;
-pub(crate) mod division;
 pub(crate) mod exchange;
 pub(crate) mod front_pull;
+pub(crate) mod furrow_pull;
 pub(crate) mod phagocytosis;
 pub(crate) mod sensing;
 mod tow;

@@ -18,6 +18,12 @@ impl Aabb {
         Self(Vec4::new(-low.x, -low.y, high.x, high.y))
     }
 
+    /// The box around a disc.
+    #[inline(always)]
+    pub(super) fn around(centre: Vec2, radius: f32) -> Self {
+        Self(Vec4::new(-centre.x, -centre.y, centre.x, centre.y) + radius)
+    }
+
     pub(super) fn low(self) -> Vec2 {
         -self.0.xy()
     }

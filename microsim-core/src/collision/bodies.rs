@@ -140,14 +140,19 @@ impl Bodies {
         self.small.bodies.iter().chain(&self.large.bodies)
     }
 
+    /// Its discs, if they have been made.
+    fn made_discs(&self, body: &BodyProxy) -> Option<&[Disc]> {
+        let are_made = body.block == NO_BLOCK || self.has_discs[body.block as usize];
+        are_made.then(|| &self.discs[body.discs.clone()])
+    }
+
     /// Its discs.
     #[inline]
     pub(super) fn discs_of(&self, body: &BodyProxy, particles: &Particles) -> impl Iterator<Item = Disc> {
-        let are_made = body.block == NO_BLOCK || self.has_discs[body.block as usize];
-        let (made, missing) = if are_made { (body.discs.clone(), 0) } else { (0..0, body.slots) };
+        let (made, missing) = self.made_discs(body).map_or((&[][..], body.slots), |discs| (discs, 0));
         let (columns, first, displacement) = (DiscColumns::of(particles), body.first, self.displacement);
         let others = (0..missing).filter_map(move |slot| columns.disc(first + slot * LANES, displacement));
-        self.discs[made].iter().copied().chain(others)
+        made.iter().copied().chain(others)
     }
 
     /// Calls `visit` once for each disc of a body and each disc of a grid that may touch.
@@ -256,15 +261,24 @@ impl Bodies {
         mut visit: impl FnMut(&Disc, &Disc),
     ) {
         near.clear();
-        near.extend(self.discs_in(b, a.aabb.shrunk(slack), particles));
-        self.discs_in(a, b.aabb.shrunk(slack), particles).for_each(|disc| {
-            near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(&disc, other));
+        self.for_each_disc_in(b, a.aabb.shrunk(slack), particles, |disc| near.push(*disc));
+        if near.is_empty() {
+            return;
+        }
+        self.for_each_disc_in(a, b.aabb.shrunk(slack), particles, |disc| {
+            near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(disc, other));
         });
     }
 
-    /// Discs of a body whose boxes overlap a box.
-    fn discs_in(&self, body: &BodyProxy, aabb: Aabb, particles: &Particles) -> impl Iterator<Item = Disc> {
-        self.discs_of(body, particles).filter(move |disc| disc.aabb().overlaps(aabb))
+    /// Calls `visit` for each disc of a body whose box overlaps a box.
+    #[inline(always)]
+    fn for_each_disc_in(&self, body: &BodyProxy, aabb: Aabb, particles: &Particles, mut visit: impl FnMut(&Disc)) {
+        match self.made_discs(body) {
+            Some(discs) => discs.iter().filter(|disc| disc.aabb().overlaps(aabb)).for_each(visit),
+            None => {
+                self.discs_of(body, particles).filter(|disc| disc.aabb().overlaps(aabb)).for_each(|disc| visit(&disc))
+            }
+        }
     }
 }
 

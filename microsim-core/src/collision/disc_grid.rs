@@ -65,7 +65,7 @@ impl Disc {
     /// The box around all places that it can get to in the step.
     #[inline(always)]
     pub(super) fn aabb(&self) -> Aabb {
-        Aabb::new(self.at - self.swept_radius, self.at + self.swept_radius)
+        Aabb::around(self.at, self.swept_radius)
     }
 
     /// An image of it.

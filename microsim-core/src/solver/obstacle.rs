@@ -13,7 +13,10 @@ use crate::collision::{ObstacleContact, combine};
 use crate::geometry::ring::direction_or;
 use crate::particle::Particles;
 use glam::Vec2;
+use parry2d::bounding_volume::{Aabb, BoundingVolume};
 
+/// What rounding may make of a coordinate, relative to it, at the most.
+const ROUNDING: f32 = 1e-5;
 /// Share of a disc's radius by which a moving obstacle lets it be pressed in.
 const PRESS: f32 = 0.1;
 /// A one-way platform holds a disc that was at least this share of its radius above it ...
@@ -31,10 +34,11 @@ pub(crate) fn project(
     recorder: &mut ContactRecorder,
     h: f32,
 ) {
-    for contact in contacts {
+    for (contact, bounds) in with_bounds(contacts, obstacles) {
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
         let path = path_of(paths, contact.obstacle);
-        if let Some(Stop { away, depth, has_passed }) = separate(contact, obstacle, path.as_deref(), particles) {
+        if let Some(Stop { away, depth, has_passed }) = separate(contact, obstacle, path.as_deref(), bounds, particles)
+        {
             let at = particles.position(i) - contact.shift;
             let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(at));
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
@@ -60,21 +64,35 @@ pub(crate) fn project(
         }
     }
     // In a corner the friction on one wall may have moved a disc into the other.
-    for contact in contacts {
+    for (contact, bounds) in with_bounds(contacts, obstacles) {
         let path = path_of(paths, contact.obstacle);
-        separate(contact, &obstacles[contact.obstacle as usize], path.as_deref(), particles);
+        separate(contact, &obstacles[contact.obstacle as usize], path.as_deref(), bounds, particles);
     }
     if !paths.is_empty() {
         move_back(contacts, obstacles, paths, particles);
     }
 }
 
+/// All contacts, which lie side by side for each obstacle, with the box around it, and some more: rounding takes nothing away that a
+/// disc may touch.
+fn with_bounds<'a>(
+    contacts: &'a [ObstacleContact],
+    obstacles: &'a [Obstacle],
+) -> impl Iterator<Item = (&'a ObstacleContact, Aabb)> {
+    contacts.chunk_by(|a, b| a.obstacle == b.obstacle).flat_map(|of_one| {
+        let Aabb { mins, maxs } = obstacles[of_one[0].obstacle as usize].aabb();
+        let rim = (mins.abs().max_element() + maxs.abs().max_element()) * ROUNDING;
+        let bounds = Aabb { mins: mins - rim, maxs: maxs + rim };
+        of_one.iter().map(move |contact| (contact, bounds))
+    })
+}
+
 /// Moves obstacles back from the discs that something fixed has pushed into them.
 fn move_back(contacts: &[ObstacleContact], obstacles: &[Obstacle], paths: &mut [ObstaclePath], p: &Particles) {
-    for contact in contacts {
+    for (contact, bounds) in with_bounds(contacts, obstacles) {
         let Some(path) = path_of(paths, contact.obstacle) else { return };
         let (i, obstacle) = (contact.particle as usize, &obstacles[contact.obstacle as usize]);
-        if let Some(Stop { away, depth, .. }) = overlap(contact, obstacle, Some(path), p) {
+        if let Some(Stop { away, depth, .. }) = overlap(contact, obstacle, Some(path), bounds, p) {
             path.give_way(depth, path.displacement(p.position(i) - contact.shift), away);
         }
     }
@@ -85,9 +103,10 @@ fn separate(
     contact: &ObstacleContact,
     obstacle: &Obstacle,
     path: Option<&ObstaclePath>,
+    bounds: Aabb,
     particles: &mut Particles,
 ) -> Option<Stop> {
-    let stop = overlap(contact, obstacle, path, particles)?;
+    let stop = overlap(contact, obstacle, path, bounds, particles)?;
     shift(particles, contact.particle as usize, stop.away * stop.depth);
     Some(stop)
 }
@@ -97,6 +116,7 @@ fn overlap(
     contact: &ObstacleContact,
     obstacle: &Obstacle,
     path: Option<&ObstaclePath>,
+    bounds: Aabb,
     particles: &Particles,
 ) -> Option<Stop> {
     let i = contact.particle as usize;
@@ -109,6 +129,10 @@ fn overlap(
         && let Some(stop) = stop_on_way(obstacle, [from, position], radius)
     {
         return Some(stop);
+    }
+    // Most discs that may touch do not, and shapes are slow to ask.
+    if !bounds.loosened(radius).contains_local_point(position) {
+        return None;
     }
     let (surface, is_inside) = obstacle.nearest(position);
     let (away, distance) = direction(position - surface, is_inside, last - surface);
@@ -153,7 +177,8 @@ mod tests {
     use super::super::testing::line;
     use super::*;
     use crate::particle::Material;
-    use parry2d::math::Pose;
+    use crate::rng::Rng;
+    use parry2d::math::{Pose, Rot2};
     use parry2d::shape::SharedShape;
 
     fn out_of(shape: SharedShape, start: Vec2) -> f32 {
@@ -196,6 +221,30 @@ mod tests {
     }
 
     #[test]
+    fn no_box_takes_a_contact_away() {
+        let (mut rng, mut touching) = (Rng::new(6, 3), 0);
+        for k in 0..20_000 {
+            // As far away as a room is wide, turned, and with the disc as near as it may be to touch.
+            let place = Vec2::new(rng.range(0.0, 9000.0), rng.range(0.0, 9000.0));
+            let pose = Pose::from_parts(place, Rot2::from_angle(rng.range(0.0, 6.0)));
+            let obstacle = Obstacle::new(SharedShape::cuboid(rng.range(0.1, 4000.0), rng.range(0.1, 4.0)), pose);
+            let side = pose.transform_vector(if k % 2 == 0 { Vec2::X } else { Vec2::Y });
+            let edge = obstacle.nearest(place + side * 1e4).0;
+            let mut p = line(100.0, [1.0, 1.0]);
+            let at = edge + side * (p.radius[0] + rng.range(-1e-3, 1e-3));
+            (p.origin_x[0], p.origin_y[0], p.x[0], p.y[0]) = (0.0, 0.0, at.x, at.y);
+            (p.prev_x[0], p.prev_y[0]) = (p.x[0], p.y[0]);
+            let contacts = [ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO }];
+            let everywhere = Aabb { mins: Vec2::NEG_INFINITY, maxs: Vec2::INFINITY };
+            let of = |bounds| overlap(&contacts[0], &obstacle, None, bounds, &p).map(|stop| (stop.away, stop.depth));
+            let bounds = with_bounds(&contacts, std::slice::from_ref(&obstacle)).next().unwrap().1;
+            assert_eq!(of(bounds), of(everywhere), "{obstacle:?} {at}");
+            touching += u32::from(of(bounds).is_some());
+        }
+        assert!((5000..15_000).contains(&touching), "{touching}");
+    }
+
+    #[test]
     fn discs_apart_are_left_alone() {
         assert!((out_of(SharedShape::ball(1.0), Vec2::new(10.0, 8.0)) - 2.0).abs() < 1e-5);
     }
@@ -232,7 +281,7 @@ mod tests {
         let mut p = line(100.0, [1.0, 1.0]);
         (p.x[0], p.y[0], p.prev_x[0], p.prev_y[0]) = (10.5, 6.0, 10.5, 6.25);
         let contact = ObstacleContact { particle: 0, obstacle: 0, shift: Vec2::ZERO };
-        let stop = overlap(&contact, &obstacle, None, &p).unwrap();
+        let stop = overlap(&contact, &obstacle, None, obstacle.aabb(), &p).unwrap();
         assert_eq!((stop.away, stop.depth), (Vec2::Y, 0.5));
     }
 }

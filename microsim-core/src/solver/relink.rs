@@ -117,8 +117,8 @@ impl Pressed {
         pressed.resize(blocks.len(), false);
         sides.clear();
         let mut hard = hard.iter().peekable();
-        // Contacts of two bodies lie side by side, so the last blocks are often the next ones.
-        let mut last = [0; 2];
+        // Contacts of two bodies lie side by side, and bodies beside and above by turns: the last two blocks are often the next ones.
+        let mut last = [[0; 2]; 2];
         contacts.retain(|contact| {
             let is_hard = hard.next_if_eq(&&[contact.i, contact.j]).is_some();
             let mut found = [NO_BLOCK; 2];
@@ -126,7 +126,10 @@ impl Pressed {
                 if contact.mobility[k] == Mobility::Linked
                     && let Some(block) = block_of(side, blocks, last[k])
                 {
-                    (last[k], found[k], pressed[block]) = (block, block, true);
+                    (found[k], pressed[block]) = (block, true);
+                    if block != last[k][0] {
+                        last[k] = [block, last[k][0]];
+                    }
                 }
             }
             let any = found != [NO_BLOCK; 2];
@@ -158,14 +161,11 @@ fn is_hard(contact: &Contact, particles: &Particles) -> bool {
     (hard(of_i, of_j) && is_heavy(particles, i, j)) || (hard(of_j, of_i) && is_heavy(particles, j, i))
 }
 
-/// The block that a particle is in, if it is in any; `likely` is looked at first.
-fn block_of(particle: u32, blocks: &[Block], likely: usize) -> Option<usize> {
+/// The block that a particle is in, if it is in any; those that are `likely` are looked at first.
+fn block_of(particle: u32, blocks: &[Block], likely: [usize; 2]) -> Option<usize> {
     let holds = |k: usize| blocks.get(k).is_some_and(|block| block.holds(particle));
-    if holds(likely) {
-        return Some(likely);
-    }
-    let after = blocks.partition_point(|block| block.base <= particle);
-    after.checked_sub(1).filter(|&k| holds(k))
+    let searched = || blocks.partition_point(|block| block.base <= particle).checked_sub(1).filter(|&k| holds(k));
+    likely.into_iter().find(|&k| holds(k)).or_else(searched)
 }
 
 #[cfg(test)]
@@ -236,7 +236,7 @@ mod tests {
         let first = Block::new(0, 2, &mut p);
         let loose = p.insert(&disc(Vec2::ZERO, 1.0));
         let blocks = [first, Block::new(1, 1, &mut p)];
-        for likely in 0..3 {
+        for likely in [[0, 1], [1, 0], [2, 7]] {
             let found = |particle| block_of(particle, &blocks, likely);
             assert_eq!([found(0), found(loose), found(u32::MAX)], [None; 3]);
             for (k, block) in blocks.iter().enumerate() {

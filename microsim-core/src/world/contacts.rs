@@ -181,9 +181,12 @@ impl Touching {
         events: &mut Vec<Event>,
     ) {
         self.now.clear();
+        // Contacts of two bodies lie side by side.
+        let mut last = (0, 0);
         for (i, j) in touched {
             let (a, b) = (particles.owner[i as usize], particles.owner[j as usize]);
-            if a != b {
+            if a != b && (a, b) != last {
+                last = (a, b);
                 let ids = (organisms.id_at(a.min(b)), organisms.id_at(a.max(b)));
                 self.now.extend(ids.0.zip(ids.1));
             }
@@ -191,14 +194,19 @@ impl Touching {
         self.now.extend(self.pairs.iter().filter(|(a, b)| is_asleep(*a) && is_asleep(*b)));
         self.now.sort_unstable();
         self.now.dedup();
-        let only = |from: &[(OrganismId, OrganismId)], other: &[_]| {
-            let missing = |pair: &&_| other.binary_search(*pair).is_err();
-            from.iter().filter(missing).copied().collect::<Vec<_>>()
-        };
-        events.extend(only(&self.pairs, &self.now).into_iter().map(|(a, b)| Event::ContactEnded { a, b }));
-        events.extend(only(&self.now, &self.pairs).into_iter().map(|(a, b)| Event::ContactBegan { a, b }));
+        events.extend(missing(&self.pairs, &self.now).map(|(a, b)| Event::ContactEnded { a, b }));
+        events.extend(missing(&self.now, &self.pairs).map(|(a, b)| Event::ContactBegan { a, b }));
         std::mem::swap(&mut self.pairs, &mut self.now);
     }
+}
+
+/// What is in a sorted list and not in another one.
+fn missing<'a, T: Copy + Ord>(from: &'a [T], others: &'a [T]) -> impl Iterator<Item = T> + 'a {
+    let mut others = others.iter().peekable();
+    from.iter().copied().filter(move |one| {
+        while others.next_if(|other| *other < one).is_some() {}
+        others.peek() != Some(&one)
+    })
 }
 
 #[cfg(test)]
@@ -244,6 +252,15 @@ mod tests {
                 }
             }
             assert!(overlaps > 100, "{overlaps}");
+        }
+    }
+
+    #[test]
+    fn what_is_missing_from_a_sorted_list_is_found() {
+        let lists: [&[i32]; 5] = [&[], &[1], &[2, 5, 7], &[1, 2, 3, 5, 8], &[0, 9]];
+        for (from, others) in lists.into_iter().flat_map(|from| lists.map(|others| (from, others))) {
+            let expected: Vec<i32> = from.iter().copied().filter(|one| !others.contains(one)).collect();
+            assert_eq!(missing(from, others).collect::<Vec<_>>(), expected, "{from:?} without {others:?}");
         }
     }
 

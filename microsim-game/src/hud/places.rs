@@ -3,7 +3,7 @@
 use super::marks::{Style, draw_at_edge};
 use crate::draw::palette::{HALO, INK, READY, fade};
 use crate::rules::attempt::{Attempt, is_held, places, wanted};
-use crate::rules::prey;
+use crate::rules::prey_class;
 use crate::rules::round::Round;
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
@@ -47,7 +47,7 @@ fn draw_place(pen: &mut Pen, style: &Style<'_>, place: [Vec2; 2], is_open: bool)
 /// Draws a thin ring around everything small that can be digested.
 pub fn draw_food(pen: &mut Pen, style: &Style<'_>, view: View<'_>) {
     let unit = pen.line(TextSize::Body);
-    for food in view.organisms().filter(|organism| prey::is_small(*organism) && organism.held_by().is_none()) {
+    for food in view.organisms().filter(|organism| prey_class::is_small(*organism) && organism.held_by().is_none()) {
         let (low, high) = food.bounds();
         let radius = 0.5 * (high - low).max_element() * style.camera.scale() + 0.35 * unit;
         let at = style.camera.to_screen(food.centroid());

@@ -1,6 +1,6 @@
 //! What the player is told at the end of a round: what was missed, and the next goal.
 
-use super::prey;
+use super::prey_class;
 use super::round::RoundResult;
 use crate::words::{self, Key};
 
@@ -11,7 +11,7 @@ pub fn missed(result: &RoundResult) -> Option<String> {
         let of_kind: Vec<u32> = result
             .kinds
             .iter()
-            .filter(|(kind, _)| prey::is_rigid(*kind) == is_rigid)
+            .filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid)
             .map(|(_, entry)| entry.count)
             .collect();
         (!of_kind.is_empty()).then(|| of_kind.iter().sum())

@@ -1,7 +1,7 @@
 //! Bots: programs that play, to tune the game and to test its rules.
 
 use super::hint::{Readiness, readiness};
-use super::prey;
+use super::prey_class;
 use microsim_core::glam::Vec2;
 use microsim_core::{Intent, MealPhase, OrganismId, OrganismView, PreyClass, Rng, World};
 
@@ -119,6 +119,6 @@ impl Bot {
 fn is_time_to_digest(world: &World, me: OrganismView<'_>) -> bool {
     let inside: Vec<_> = me.meals().filter(|(_, phase)| phase.is_inside()).collect();
     let has_begun = inside.iter().any(|(_, phase)| matches!(phase, MealPhase::Digesting(_)));
-    let holds_rigid = inside.iter().any(|(prey, _)| world.view().organism(*prey).is_some_and(prey::is_soft));
+    let holds_rigid = inside.iter().any(|(prey, _)| world.view().organism(*prey).is_some_and(prey_class::is_soft));
     has_begun || holds_rigid || inside.len() >= FULL
 }

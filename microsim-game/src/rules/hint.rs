@@ -1,6 +1,6 @@
 //! What the player is shown: which cells can be taken in, what is about to be, what waits to be digested.
 
-use super::prey;
+use super::prey_class;
 use microsim_core::glam::Vec2;
 use microsim_core::{MealPhase, OrganismId, OrganismView, View};
 
@@ -66,7 +66,7 @@ impl Hints {
     #[must_use]
     pub fn of(view: View<'_>, player: OrganismId) -> Self {
         let Some(engulfer) = view.organism(player) else { return Self::default() };
-        let free = |organism: &OrganismView<'_>| prey::is_soft(*organism) && organism.held_by().is_none();
+        let free = |organism: &OrganismView<'_>| prey_class::is_soft(*organism) && organism.held_by().is_none();
         let targets = view.organisms().filter(free).filter_map(|prey| {
             let readiness = readiness(engulfer, prey)?;
             Some(PreyTarget { prey: prey.id(), at: prey.centroid(), half_extent: half_extent(prey), readiness })

@@ -16,7 +16,7 @@ pub mod game;
 pub mod hint;
 pub mod lesson;
 pub mod path;
-pub mod prey;
+pub mod prey_class;
 pub mod referee;
 pub mod round;
 pub mod seating;

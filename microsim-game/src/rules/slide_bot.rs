@@ -3,7 +3,7 @@
 use super::attempt::wanted;
 use super::hint::{Readiness, readiness};
 use super::path::PathMap;
-use super::prey;
+use super::prey_class;
 use super::round::Round;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
@@ -74,11 +74,12 @@ fn share(round: &Round, player: usize, places: [[Vec2; 2]; 2]) -> Option<Vec2> {
 
 /// Where prey of a kind is that the player can take in now; where food is if there is none.
 fn prey_of(view: View<'_>, player: OrganismView<'_>, kind: Kind) -> Vec<Vec2> {
-    let is_ready = |prey: OrganismView<'_>| !prey::is_soft(prey) || readiness(player, prey) == Some(Readiness::Ready);
+    let is_ready =
+        |prey: OrganismView<'_>| !prey_class::is_soft(prey) || readiness(player, prey) == Some(Readiness::Ready);
     let free = |is_wanted: &dyn Fn(OrganismView<'_>) -> bool| -> Vec<Vec2> {
         let wanted = view.organisms().filter(|prey| is_wanted(*prey) && prey.held_by().is_none());
         wanted.filter(|prey| is_ready(*prey)).map(|prey| prey.centroid()).collect()
     };
     let wanted = free(&|prey| prey.kind() == kind);
-    if wanted.is_empty() { free(&prey::is_small) } else { wanted }
+    if wanted.is_empty() { free(&prey_class::is_small) } else { wanted }
 }

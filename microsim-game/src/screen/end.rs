@@ -8,7 +8,7 @@ use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::Input;
 use crate::rules::advice;
-use crate::rules::prey;
+use crate::rules::prey_class;
 use crate::rules::referee::KindScore;
 use crate::rules::round::RoundResult;
 use crate::store::scores::Score;
@@ -44,7 +44,7 @@ impl End {
         let RoundResult { score: points, time, kinds, record, is_mismatch, .. } = result;
         let game = context.game_of(played).label();
         let count = |is_rigid: bool| {
-            let of_kind = kinds.iter().filter(|(kind, _)| prey::is_rigid(*kind) == is_rigid);
+            let of_kind = kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
             of_kind.map(|(_, entry)| entry.count).sum()
         };
         let score = Score { game: game.clone(), time, points, small: count(false), rigid: count(true) };

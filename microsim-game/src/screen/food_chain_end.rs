@@ -10,7 +10,7 @@ use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
 use crate::platform;
 use crate::rules::food_chain::{Fate, NAME};
-use crate::rules::prey;
+use crate::rules::prey_class;
 use crate::rules::round::{Life, RoundResult};
 use crate::rules::verdict::chain_verdict;
 use crate::store::scores::Score;
@@ -37,7 +37,7 @@ impl FoodChainEnd {
     /// The end of one that was played, which is kept among the best, or replayed.
     pub(super) fn new(result: RoundResult, life: Life, played: Paused, context: &mut AppContext) -> Self {
         let count = |is_rigid: bool| {
-            let of_sort = result.kinds.iter().filter(|(kind, _)| prey::is_rigid(*kind) == is_rigid);
+            let of_sort = result.kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
             of_sort.map(|(_, entry)| entry.count).sum()
         };
         let points = life.time as u32;

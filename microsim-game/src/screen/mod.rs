@@ -13,7 +13,7 @@ mod food_chain;
 mod food_chain_end;
 mod guide;
 mod join;
-mod keys;
+mod keys_menu;
 mod lobby;
 mod offer;
 mod page;

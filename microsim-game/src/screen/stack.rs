@@ -9,7 +9,7 @@ use super::food_chain::FoodChainMenu;
 use super::food_chain_end::FoodChainEnd;
 use super::guide::Guide;
 use super::join::Join;
-use super::keys::KeysMenu;
+use super::keys_menu::KeysMenu;
 use super::lobby::{self, Lobby};
 use super::pause::Pause;
 use super::photo::Photo;

@@ -97,7 +97,8 @@ impl Bodies {
     ) {
         let Some(mobility) = filter.mobility(body, other) else { return };
         let image = body.aabb.moved(shift).shrunk(0.0).shrunk(slack);
-        let near: Vec<Disc> = self.discs_in(other, image, filter.particles).collect();
+        let mut near = Vec::new();
+        self.for_each_disc_in(other, image, filter.particles, |disc| near.push(*disc));
         let of_image = self.discs_of(body, filter.particles).map(|disc| disc.moved(shift));
         for disc in of_image.filter(|_| !near.is_empty()) {
             for other in near.iter().filter(|other| disc.is_within(other, slack) && wanted(&disc, other)) {

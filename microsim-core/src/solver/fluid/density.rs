@@ -43,27 +43,29 @@ pub(super) struct Sums {
     pub multiplier: Lanes,
 }
 
-/// First pass: sums over the neighbours.
+/// First pass: sums over the neighbours. Keeps the members' distances from each candidate for the second pass, so that roots are
+/// taken once.
 #[inline(always)]
-pub(super) fn sum(group: &Group, neighbours: &[Neighbour]) -> Sums {
+pub(super) fn sum(group: &Group, neighbours: &[Neighbour], mut distances: &mut [Lanes]) -> Sums {
     let (x, y) = (group.load(neighbours, |s| s.x), group.load(neighbours, |s| s.y));
     // A particle's own kernel adds 1 to its squares but is no neighbour's gradient.
     let mut sums = Sums { squared: [-1.0; LANES], ..Sums::default() };
     for window in group.windows(neighbours) {
-        for other in window {
-            for l in 0..LANES {
-                let (dx, dy) = (x[l] - other.x, y[l] - other.y);
-                let r = distance(dx, dy);
-                let near = positive(1.0 - r);
-                let slope = near * near;
-                let (along, weight) = (slope / r, slope * near);
-                sums.density[l] += weight;
-                sums.gradient_x[l] += dx * along;
-                sums.gradient_y[l] += dy * along;
-                sums.squared[l] += slope * slope;
-                sums.drift_x[l] += weight * other.moved_x;
-                sums.drift_y[l] += weight * other.moved_y;
-            }
+        let (kept, others) = distances.split_at_mut(window.len());
+        distances = others;
+        for (other, kept) in window.iter().zip(kept) {
+            let (dx, dy): (Lanes, Lanes) = (each(|l| x[l] - other.x), each(|l| y[l] - other.y));
+            let r: Lanes = each(|l| distance(dx[l], dy[l]));
+            *kept = r;
+            let near: Lanes = each(|l| positive(1.0 - r[l]));
+            let slope: Lanes = each(|l| near[l] * near[l]);
+            let (along, weight): (Lanes, Lanes) = (each(|l| slope[l] / r[l]), each(|l| slope[l] * near[l]));
+            add(&mut sums.density, |l| weight[l]);
+            add(&mut sums.gradient_x, |l| dx[l] * along[l]);
+            add(&mut sums.gradient_y, |l| dy[l] * along[l]);
+            add(&mut sums.squared, |l| slope[l] * slope[l]);
+            add(&mut sums.drift_x, |l| weight[l] * other.moved_x);
+            add(&mut sums.drift_y, |l| weight[l] * other.moved_y);
         }
     }
     sums
@@ -107,18 +109,25 @@ impl Sums {
     }
 }
 
+/// Adds a value to each lane of a sum.
+#[inline(always)]
+fn add(sum: &mut Lanes, value: impl Fn(usize) -> f32) {
+    *sum = each(|l| sum[l] + value(l));
+}
+
 /// What is added to the weight of a density constraint in a substep of `h`.
 pub(super) fn relaxation(h: f32) -> f32 {
     if h < SUBSTEP { RELAXATION * (SUBSTEP * SUBSTEP) / (h * h) } else { RELAXATION }
 }
 
-/// Second pass: how far the members are moved, by the constraints (eq. 12), with what is `added` to their push at a distance,
+/// Second pass, with the `distances` of the first: how far the members are moved, by the constraints (eq. 12), with what is `added` to their push at a distance,
 /// and by viscosity, which takes a share of the differences between the displacement of a particle in this substep and those
 /// of its neighbours (XSPH, eq. 17). Weights are relative to the rest density, so that what one gains another loses.
 #[inline(always)]
 pub(super) fn shifts(
     group: &Group,
     neighbours: &[Neighbour],
+    mut distances: &[Lanes],
     sums: &Sums,
     [viscosity, rest_density]: [f32; 2],
     added: impl Fn(f32, f32) -> f32,
@@ -127,15 +136,15 @@ pub(super) fn shifts(
     let own = sums.multiplier;
     let [mut shift_x, mut shift_y] = [[0.0; LANES]; 2];
     for window in group.windows(neighbours) {
-        for other in window {
-            for l in 0..LANES {
-                let (dx, dy) = (x[l] - other.x, y[l] - other.y);
-                let r = distance(dx, dy);
-                let near = positive(1.0 - r);
-                let along = added((own[l] + other.multiplier) * (near * near), r) / r;
-                shift_x[l] += dx * along;
-                shift_y[l] += dy * along;
-            }
+        let (kept, others) = distances.split_at(window.len());
+        distances = others;
+        for (other, r) in window.iter().zip(kept) {
+            let (dx, dy): (Lanes, Lanes) = (each(|l| x[l] - other.x), each(|l| y[l] - other.y));
+            let near: Lanes = each(|l| positive(1.0 - r[l]));
+            let push: Lanes = each(|l| (own[l] + other.multiplier) * (near[l] * near[l]));
+            let along: Lanes = each(|l| added(push[l], r[l]) / r[l]);
+            add(&mut shift_x, |l| dx[l] * along[l]);
+            add(&mut shift_y, |l| dy[l] * along[l]);
         }
     }
     let (moved_x, moved_y) = (group.load(neighbours, |s| s.moved_x), group.load(neighbours, |s| s.moved_y));

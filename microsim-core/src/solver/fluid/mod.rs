@@ -107,6 +107,8 @@ pub(crate) struct Workspace {
     rest_density: f32,
     /// Of each fluid, found once per step.
     sorted: Vec<Sorted>,
+    /// Of each group's members from each of its candidates.
+    distances: Vec<Lanes>,
     /// Of each group.
     sums: Vec<Sums>,
     shifts: Vec<[Lanes; 2]>,
@@ -115,7 +117,7 @@ pub(crate) struct Workspace {
 impl Default for Workspace {
     fn default() -> Self {
         let rest_density = density::lattice_density();
-        Self { rest_density, sorted: Vec::new(), sums: Vec::new(), shifts: Vec::new() }
+        Self { rest_density, sorted: Vec::new(), distances: Vec::new(), sums: Vec::new(), shifts: Vec::new() }
     }
 }
 
@@ -148,8 +150,10 @@ impl Fluid {
         sorted.sort(&self.particles, particles, [Vec2::ZERO; 2], [support_radius, 0.0], period);
         sorted.read(particles, support_radius);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
+        let mut distances = vec![Lanes::default(); sorted.candidates()];
         for group in &sorted.groups {
-            let compression = density::sum(group, &sorted.neighbours).compression(rest_density);
+            let distances = &mut distances[group.candidates()];
+            let compression = density::sum(group, &sorted.neighbours, distances).compression(rest_density);
             let is_own = |l: &usize| !sorted.is_image(group.members.start + l);
             sum += (0..group.members.len()).filter(is_own).map(|l| compression[l]).sum::<f32>();
         }
@@ -176,7 +180,7 @@ impl Workspace {
     /// One iteration of all fluids' density constraints (or of their grains' contacts), and the viscosity of a substep of
     /// `h`.
     pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
-        let Self { rest_density, sorted, sums, shifts } = self;
+        let Self { rest_density, sorted, distances, sums, shifts } = self;
         for (fluid, sorted) in fluids.iter().zip(sorted).filter(|(fluid, _)| !fluid.particles.is_empty()) {
             let support_radius = fluid.support_radius();
             sorted.read(particles, support_radius);
@@ -185,11 +189,13 @@ impl Workspace {
             let viscosity = fluid.params.viscosity * h;
             match fluid.params.mode {
                 FluidMode::Density => {
-                    find_multipliers(sorted, sums, [*rest_density, density::relaxation(h)], dispatch);
+                    distances.resize(sorted.candidates(), Lanes::default());
+                    find_multipliers(sorted, distances, sums, [*rest_density, density::relaxation(h)], dispatch);
                     // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
                     if fluid.is_enclosed {
                         find_density_shifts(
                             sorted,
+                            distances,
                             sums,
                             shifts,
                             [viscosity, *rest_density],
@@ -199,6 +205,7 @@ impl Workspace {
                     } else {
                         find_density_shifts(
                             sorted,
+                            distances,
                             sums,
                             shifts,
                             [viscosity, *rest_density],
@@ -233,19 +240,35 @@ impl Workspace {
     }
 }
 
-fn find_multipliers(sorted: &mut Sorted, sums: &mut [Sums], [rest_density, relaxation]: [f32; 2], dispatch: Dispatch) {
+fn find_multipliers(
+    sorted: &mut Sorted,
+    distances: &mut [Lanes],
+    sums: &mut [Sums],
+    [rest_density, relaxation]: [f32; 2],
+    dispatch: Dispatch,
+) {
     let Sorted { groups, neighbours, walls, .. } = sorted;
-    for_each_group(
-        groups,
-        sums,
-        dispatch,
-        #[inline(always)]
-        |_, group, sums| {
-            *sums = density::sum(group, neighbours);
-            sums.add_walls(group, neighbours, walls);
-            sums.find_multipliers(rest_density, relaxation);
-        },
-    );
+    let (mut portions, mut rest) = (Vec::new(), distances);
+    for (groups, sums) in groups.chunks(PORTION).zip(sums.chunks_mut(PORTION)) {
+        let candidates = groups.iter().map(|group| group.candidates().len()).sum();
+        let (distances, others) = rest.split_at_mut(candidates);
+        portions.push((groups, sums, distances));
+        rest = others;
+    }
+    parallel::for_each(portions, |(groups, sums, mut distances): (&[Group], &mut [Sums], &mut [Lanes])| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for (group, sums) in groups.iter().zip(sums) {
+                    let (own, others) = distances.split_at_mut(group.candidates().len());
+                    distances = others;
+                    *sums = density::sum(group, neighbours, own);
+                    sums.add_walls(group, neighbours, walls);
+                    sums.find_multipliers(rest_density, relaxation);
+                }
+            },
+        );
+    });
     tell_neighbours(sorted, sums);
 }
 
@@ -274,6 +297,7 @@ fn tell_neighbours(sorted: &mut Sorted, sums: &[Sums]) {
 
 fn find_density_shifts(
     Sorted { groups, neighbours, .. }: &Sorted,
+    distances: &[Lanes],
     sums: &[Sums],
     shifts: &mut [[Lanes; 2]],
     viscosity: [f32; 2],
@@ -285,7 +309,10 @@ fn find_density_shifts(
         shifts,
         dispatch,
         #[inline(always)]
-        |k, group, shifts| *shifts = density::shifts(group, neighbours, &sums[k], viscosity, added),
+        |k, group, shifts| {
+            let distances = &distances[group.candidates()];
+            *shifts = density::shifts(group, neighbours, distances, &sums[k], viscosity, added);
+        },
     );
 }
 

@@ -46,6 +46,8 @@ pub(super) struct Group {
     /// Its particles, as a range of the cell order.
     pub members: Range<usize>,
     windows: [Range<usize>; 3],
+    /// How many candidates the groups before it have.
+    first_candidate: usize,
 }
 
 /// A fluid's particles sorted by cell.
@@ -110,6 +112,11 @@ impl Sorted {
             self.place_images(&shifts, indices);
         }
         self.find_groups((1.0 + margin) * support_radius);
+    }
+
+    /// How many candidates all groups have.
+    pub(super) fn candidates(&self) -> usize {
+        self.groups.last().map_or(0, |group| group.candidates().end)
     }
 
     /// Reads where the particles are now, and how far they have moved in this substep.
@@ -196,7 +203,7 @@ impl Sorted {
 
     fn find_groups(&mut self, distance: f32) {
         let Self { grid, groups, .. } = self;
-        let span = grid.columns_within(distance);
+        let (span, mut first_candidate) = (grid.columns_within(distance), 0);
         groups.clear();
         for row in 0..grid.rows() {
             let members = grid.row_range(row, 0..grid.columns());
@@ -206,13 +213,23 @@ impl Sorted {
                 let columns = column(first).saturating_sub(span)..column(last) + span + 1;
                 let window = |row: usize| grid.row_range(row, columns.clone());
                 let below = if row > 0 { window(row - 1) } else { 0..0 };
-                groups.push(Group { members: first..last + 1, windows: [below, window(row), window(row + 1)] });
+                let windows = [below, window(row), window(row + 1)];
+                let group = Group { members: first..last + 1, windows, first_candidate };
+                first_candidate = group.candidates().end;
+                groups.push(group);
             }
         }
     }
 }
 
 impl Group {
+    /// Its candidates, as a range of those of all groups.
+    #[inline(always)]
+    pub(super) fn candidates(&self) -> Range<usize> {
+        let count: usize = self.windows.iter().map(Range::len).sum();
+        self.first_candidate..self.first_candidate + count
+    }
+
     /// A value of each member; lanes beyond the last one hold what follows in cell order and are to be ignored.
     #[inline(always)]
     pub(super) fn load(&self, neighbours: &[Neighbour], value: impl Fn(&Neighbour) -> f32) -> Lanes {

@@ -1,7 +1,7 @@
 //! Cells that change their membrane: growth, shrinkage, division (with its furrow) and fusion.
 //!
 //! Parameters and state are in [`crate::capability::division`], the contraction of the furrow in
-//! [`crate::behavior::division`], changes of single rings in [`crate::organism::ring_surgery`].
+//! [`crate::behavior::furrow_pull`], changes of single rings in [`crate::organism::ring_surgery`].
 
 mod division;
 mod furrow;
