@@ -96,7 +96,7 @@ pub(crate) const ENGINES: &[Engine] = &[
     },
     Engine {
         name: "liquidfun",
-        settings: "1.1 (Box2D 2.3), 8 velocity and 3 position iterations; fluid 2 particle iterations",
+        settings: "1.1 (Box2D 2.3), 8 velocity and 3 position iterations; fluid and cytoplasm 2 particle iterations",
         platelets: Some(native::liquidfun),
         fluid: Some(native::liquidfun_fluid),
         crowd: Some(native_crowd::liquidfun),
