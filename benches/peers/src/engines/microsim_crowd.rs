@@ -49,6 +49,8 @@ impl Peer for Microsim {
     fn positions(&self) -> Vec<Vec2> {
         let view = self.world.view();
         let positions = self.cells.iter().filter_map(|&cell| view.organism(cell)).flat_map(|cell| {
+            // A frozen cell would neither leak nor cost anything.
+            assert!(!cell.is_quarantined(), "every cell moves");
             let cytoplasm = cell.particles().filter(|particle| particle.role == Role::Cytoplasm);
             cell.outline().chain(cytoplasm.map(|particle| particle.position))
         });
