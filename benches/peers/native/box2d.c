@@ -124,4 +124,4 @@ static void destroy(void *handle) {
     free(world);
 }
 
-const PeerEngine BOX2D = {create_field, NULL, step, motion, destroy};
+const PeerEngine BOX2D = {create_field, NULL, step, motion, destroy, NULL, NULL};

@@ -139,4 +139,4 @@ static void destroy(void *handle) {
     free(world);
 }
 
-const PeerEngine CHIPMUNK = {create_field, NULL, step, motion, destroy};
+const PeerEngine CHIPMUNK = {create_field, NULL, step, motion, destroy, NULL, NULL};

@@ -16,6 +16,9 @@ struct World {
     std::vector<b2Body *> bodies;
     size_t first_pusher = 0;
     b2ParticleSystem *fluid = nullptr;
+    // Of a cell of the crowd; 0 where there is none.
+    size_t ring = 0, cytoplasm = 0;
+    float max_speed = 0;
 
     World(float gravity, float dt) : world(b2Vec2(0, -gravity)), dt(dt) {
         world.SetAllowSleeping(false);
@@ -130,18 +133,100 @@ void *create_block(const PeerBlock *block) {
     return w;
 }
 
+// A disc of a cell's membrane: a circle of mass 1.
+b2Body *add_ring_disc(b2World &world, b2Vec2 at, const PeerCrowd &crowd) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = at;
+    def.linearDamping = crowd.damping;
+    def.fixedRotation = true;
+    b2Body *body = world.CreateBody(&def);
+    b2CircleShape circle;
+    circle.m_radius = crowd.disc_radius;
+    body->CreateFixture(&circle, 0)->SetFriction(crowd.friction);
+    b2MassData mass = {1, b2Vec2(0, 0), 0};
+    body->SetMassData(&mass);
+    return body;
+}
+
+// The thesis' filled chain (3.1.2): circles on a ring, each joined to the next by a rigid distance joint, around water
+// particles. Discs that are not neighbours collide, those of the same ring too.
+void add_cell(World &w, b2Vec2 centre, const PeerCrowd &crowd) {
+    size_t first = w.bodies.size(), count = crowd.ring_count;
+    for (size_t k = 0; k < count; k++) {
+        w.bodies.push_back(add_ring_disc(w.world, centre + vec(crowd.ring[k]), crowd));
+    }
+    for (size_t k = 0; k < count; k++) {
+        b2Body *a = w.bodies[first + k], *b = w.bodies[first + (k + 1) % count];
+        b2DistanceJointDef def;
+        def.Initialize(a, b, a->GetPosition(), b->GetPosition());
+        w.world.CreateJoint(&def);
+    }
+    for (size_t k = 0; k < crowd.cytoplasm_count; k++) {
+        b2ParticleDef particle;
+        particle.position = centre + vec(crowd.cytoplasm[k]);
+        w.fluid->CreateParticle(particle);
+    }
+}
+
+void *create_crowd(const PeerCrowd *crowd) {
+    World *w = new World(0, crowd->dt);
+    add_walls(w->world, crowd->size, crowd->friction);
+    b2ParticleSystemDef def;
+    def.radius = 0.5f * REST_DIAMETER * crowd->spacing;
+    float stride = b2_particleStride * 2 * def.radius; // a particle's mass is the density times its square
+    def.density = 1 / (stride * stride);
+    w->fluid = w->world.CreateParticleSystem(&def);
+    w->ring = crowd->ring_count;
+    w->cytoplasm = crowd->cytoplasm_count;
+    w->max_speed = crowd->max_speed;
+    for (size_t k = 0; k < crowd->cell_count; k++) {
+        add_cell(*w, vec(crowd->centres[k]), *crowd);
+    }
+    w->first_pusher = w->bodies.size();
+    return w;
+}
+
+// Place of a disc of the crowd in `bodies`, of a particle among the particles after them.
+size_t crowd_index(const World &w, size_t index) {
+    size_t cell = index / (w.ring + w.cytoplasm), k = index % (w.ring + w.cytoplasm);
+    return k < w.ring ? cell * w.ring + k : w.bodies.size() + cell * w.cytoplasm + (k - w.ring);
+}
+
+void drive(void *handle, size_t index, PeerVec velocity) {
+    World &w = *static_cast<World *>(handle);
+    w.bodies[crowd_index(w, index)]->SetLinearVelocity(vec(velocity));
+}
+
+// The thesis' bound on the speed of a chain's bodies (3.1.2).
+void limit_speeds(World &w) {
+    for (b2Body *body : w.bodies) {
+        b2Vec2 v = body->GetLinearVelocity();
+        float speed = v.Length();
+        if (speed > w.max_speed) {
+            body->SetLinearVelocity((w.max_speed / speed) * v);
+        }
+    }
+}
+
 void step(void *handle, const PeerVec *forces) {
     World &w = *static_cast<World *>(handle);
     for (size_t k = w.first_pusher; k < w.bodies.size(); k++) {
         w.bodies[k]->ApplyForceToCenter(vec(forces[k - w.first_pusher]), true);
+    }
+    if (w.ring) {
+        limit_speeds(w);
     }
     w.world.Step(w.dt, VELOCITY_ITERATIONS, POSITION_ITERATIONS, PARTICLE_ITERATIONS);
 }
 
 PeerMotion motion(void *handle, size_t index) {
     World &w = *static_cast<World *>(handle);
-    b2Vec2 p = w.fluid ? w.fluid->GetPositionBuffer()[index] : w.bodies[index]->GetPosition();
-    b2Vec2 v = w.fluid ? w.fluid->GetVelocityBuffer()[index] : w.bodies[index]->GetLinearVelocity();
+    size_t k = w.ring ? crowd_index(w, index) : index;
+    bool is_particle = k >= w.bodies.size();
+    k -= is_particle ? w.bodies.size() : 0;
+    b2Vec2 p = is_particle ? w.fluid->GetPositionBuffer()[k] : w.bodies[k]->GetPosition();
+    b2Vec2 v = is_particle ? w.fluid->GetVelocityBuffer()[k] : w.bodies[k]->GetLinearVelocity();
     return {{p.x, p.y}, {v.x, v.y}};
 }
 
@@ -151,5 +236,5 @@ void destroy(void *handle) { delete static_cast<World *>(handle); }
 
 extern "C" {
 extern const PeerEngine LIQUIDFUN;
-const PeerEngine LIQUIDFUN = {create_field, create_block, step, motion, destroy};
+const PeerEngine LIQUIDFUN = {create_field, create_block, step, motion, destroy, create_crowd, drive};
 }

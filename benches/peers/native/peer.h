@@ -43,11 +43,25 @@ typedef struct {
 } PeerBlock;
 
 typedef struct {
+    const PeerVec *centres; /* of the cells */
+    size_t cell_count;
+    const PeerVec *ring; /* discs of mass 1, around a cell's centre; each is linked to the next, the last to the first */
+    size_t ring_count;
+    const PeerVec *cytoplasm; /* particles of mass 1, around a cell's centre */
+    size_t cytoplasm_count;
+    PeerVec size;
+    float dt, disc_radius, spacing, friction, damping;
+    float max_speed; /* of discs */
+} PeerCrowd;
+
+typedef struct {
     void *(*create_field)(const PeerField *);
     void *(*create_block)(const PeerBlock *);                /* or NULL */
-    void (*step)(void *world, const PeerVec *pusher_forces); /* NULL for fluid */
+    void (*step)(void *world, const PeerVec *pusher_forces); /* not read without pushers */
     PeerMotion (*motion)(void *world, size_t index);
     void (*destroy)(void *world);
+    void *(*create_crowd)(const PeerCrowd *);                    /* or NULL */
+    void (*drive)(void *world, size_t index, PeerVec velocity); /* sets a ring's disc's; NULL without crowds */
 } PeerEngine;
 
 #endif

@@ -33,7 +33,7 @@ struct Args {
     /// Only this scene.
     #[arg(long, value_enum)]
     scene: Option<Scene>,
-    /// Only runs with this many platelets or particles.
+    /// Only runs with this many platelets, particles or cells.
     #[arg(long)]
     count: Option<usize>,
     /// Only engines whose names contain this, and ours to compare with.
@@ -55,6 +55,8 @@ pub(crate) enum Scene {
     Platelets,
     /// A block of fluid that collapses and comes to rest.
     Fluid,
+    /// Amoeboid cells that are driven about and jostle.
+    Crowd,
 }
 
 impl Scene {
@@ -63,6 +65,7 @@ impl Scene {
         match self {
             Self::Platelets => "platelets",
             Self::Fluid => "fluid",
+            Self::Crowd => "crowd",
         }
     }
 }
@@ -86,6 +89,17 @@ const FULL_FLUID: &[(usize, Plan)] = &[
     (40_000, Plan { warm_up: 0, repeats: 12, steps: 75, rest: 0 }),
 ];
 const QUICK_FLUID: &[(usize, Plan)] = &[(10_000, Plan { warm_up: 20, repeats: 5, steps: 5, rest: 0 })];
+/// Cells of the runs: 11 s of the crowd up to 200 cells, 3 s of 1000.
+const FULL_CROWD: &[(usize, Plan)] = &[
+    (10, Plan { warm_up: 60, repeats: 20, steps: 30, rest: 0 }),
+    (50, Plan { warm_up: 60, repeats: 20, steps: 30, rest: 0 }),
+    (200, Plan { warm_up: 60, repeats: 20, steps: 30, rest: 0 }),
+    (1000, Plan { warm_up: 60, repeats: 8, steps: 15, rest: 0 }),
+];
+const QUICK_CROWD: &[(usize, Plan)] = &[
+    (10, Plan { warm_up: 30, repeats: 6, steps: 20, rest: 0 }),
+    (50, Plan { warm_up: 30, repeats: 6, steps: 20, rest: 0 }),
+];
 
 fn main() -> ExitCode {
     let args = Args::parse();
@@ -114,8 +128,10 @@ fn compare(args: &Args) -> Result<(), String> {
 }
 
 fn run(args: &Args) -> Vec<Row> {
-    let (platelets, fluid) = if args.quick { (QUICK, QUICK_FLUID) } else { (FULL, FULL_FLUID) };
-    let runs = platelets.iter().map(|run| (Scene::Platelets, run)).chain(fluid.iter().map(|run| (Scene::Fluid, run)));
+    let (platelets, fluid, crowd) =
+        if args.quick { (QUICK, QUICK_FLUID, QUICK_CROWD) } else { (FULL, FULL_FLUID, FULL_CROWD) };
+    let scenes = [(Scene::Platelets, platelets), (Scene::Fluid, fluid), (Scene::Crowd, crowd)];
+    let runs = scenes.into_iter().flat_map(|(scene, plans)| plans.iter().map(move |run| (scene, run)));
     let is_asked = |scene, count| args.scene.is_none_or(|s| s == scene) && args.count.is_none_or(|c| c == count);
     let mut rows = Vec::new();
     for (scene, &(count, plan)) in runs.filter(|&(scene, run)| is_asked(scene, run.0)) {

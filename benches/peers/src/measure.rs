@@ -4,6 +4,7 @@
 use crate::Scene;
 use crate::engines::{Clock, ENGINES, Engine, Peer};
 use crate::quality::Quality;
+use crate::scene::crowd::Crowd;
 use crate::scene::{DISCS, FluidBlock, PlateletField};
 use cpu_time::ThreadTime;
 use microsim_core::glam::Vec2;
@@ -14,7 +15,7 @@ use std::time::Instant;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Row {
     pub scene: Scene,
-    /// Platelets or particles.
+    /// Platelets, particles or cells.
     pub count: usize,
     /// Discs that move, or particles.
     pub bodies: usize,
@@ -108,6 +109,7 @@ pub(crate) fn run(scene: Scene, count: usize, plan: Plan, name: &str) -> Vec<Row
     match scene {
         Scene::Platelets => platelets(engines, &PlateletField::new(count), plan),
         Scene::Fluid => fluid(engines, &FluidBlock::new(count), plan),
+        Scene::Crowd => crowd(engines, &Crowd::new(count), plan),
     }
 }
 
@@ -156,6 +158,24 @@ fn fluid(engines: impl Iterator<Item = &'static Engine>, block: &FluidBlock, pla
     rows(contestants, Scene::Fluid, count, count)
 }
 
+fn crowd(engines: impl Iterator<Item = &'static Engine>, crowd: &Crowd, plan: Plan) -> Vec<Row> {
+    let build = |engine: &'static Engine| Some(Contestant::new(engine, engine.crowd?(crowd)));
+    let mut contestants: Vec<Contestant> = engines.filter_map(build).collect();
+    for contestant in &mut contestants {
+        (0..plan.warm_up).for_each(|_| _ = contestant.step(&crowd.directions(contestant.step)));
+        contestant.quality.look_at_crowd(crowd, plan.warm_up, &contestant.peer.positions());
+    }
+    for repeat in 0..plan.repeats {
+        in_turn(&mut contestants, repeat, |contestant| {
+            let times = (0..plan.steps).map(|_| contestant.step(&crowd.directions(contestant.step))).collect();
+            contestant.repeats.push(times);
+            contestant.quality.look_at_crowd(crowd, plan.steps, &contestant.peer.positions());
+        });
+    }
+    let cells = crowd.centres.len();
+    rows(contestants, Scene::Crowd, cells, cells * crowd.cell.bodies())
+}
+
 /// Each once, another one first in each repeat.
 fn in_turn(contestants: &mut [Contestant], repeat: usize, mut action: impl FnMut(&mut Contestant)) {
     let count = contestants.len();
@@ -179,17 +199,22 @@ mod tests {
         assert_eq!(quantile(&[7.0], 0.99), 7.0);
     }
 
-    /// Every engine gets through both scenes, and what is measured of it is sound.
+    /// Every engine gets through its scenes, and what is measured of it is sound.
     #[test]
     fn every_engine_runs_and_is_measured() {
         let plan = Plan { warm_up: 2, repeats: 2, steps: 3, rest: 2 };
-        let rows = [run(Scene::Platelets, 12, plan, ""), run(Scene::Fluid, 400, plan, "")].concat();
-        assert!(rows.len() >= 8, "{} rows", rows.len());
+        let scenes = [(Scene::Platelets, 12), (Scene::Fluid, 400), (Scene::Crowd, 4)];
+        let rows = scenes.map(|(scene, count)| run(scene, count, plan, "")).concat();
+        assert!(rows.len() >= 11, "{} rows", rows.len());
         for row in rows {
             assert!(row.ms_median > 0.0 && row.ms_p99 >= row.ms_median, "{row:?}");
             match row.scene {
                 Scene::Platelets => assert!(row.quality.ring_error_max.unwrap() < 0.5, "{row:?}"),
                 Scene::Fluid => assert_eq!(row.quality.lost, Some(0), "{row:?}"),
+                Scene::Crowd => {
+                    let crowd = row.quality.crowd.as_ref().unwrap();
+                    assert!(crowd.leaks_max == 0 && crowd.longest_link < 1.5 && crowd.speed > 0.1, "{row:?}");
+                }
             }
         }
     }

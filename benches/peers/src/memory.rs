@@ -1,9 +1,11 @@
 //! Peak memory of an engine with a scene: in a process of its own, from what Linux remembers of it.
 
 use crate::Scene;
-use crate::engines::ENGINES;
+use crate::engines::{ENGINES, Peer};
 use crate::measure::Row;
+use crate::scene::crowd::Crowd;
 use crate::scene::{FluidBlock, PlateletField};
+use microsim_core::glam::Vec2;
 use std::hint::black_box;
 use std::process::{Command, Stdio};
 
@@ -32,22 +34,31 @@ fn in_child(row: &Row) -> Option<f64> {
 /// When there is no such engine, or the system does not tell.
 pub(crate) fn report(engine: &str, scene: Scene, count: usize) -> Result<(), String> {
     let engine = ENGINES.iter().find(|other| other.name == engine).ok_or("no such engine")?;
-    let before;
-    if scene == Scene::Platelets {
-        let (field, build) = (PlateletField::new(count), engine.platelets.ok_or("it has no platelets")?);
-        before = peak()?;
-        let mut peer = build(&field);
-        (0..STEPS).for_each(|step| peer.step(&field.goals(step)));
-        black_box(peer);
-    } else {
-        let (block, build) = (FluidBlock::new(count), engine.fluid.ok_or("it has no fluid")?);
-        before = peak()?;
-        let mut peer = build(&block);
-        (0..STEPS).for_each(|_| peer.step(&[]));
-        black_box(peer);
-    }
-    println!("{}", peak()? - before);
+    let bytes = match scene {
+        Scene::Platelets => {
+            let (field, build) = (PlateletField::new(count), engine.platelets.ok_or("it has no platelets")?);
+            rise(|| build(&field), |step| field.goals(step))
+        }
+        Scene::Fluid => {
+            let (block, build) = (FluidBlock::new(count), engine.fluid.ok_or("it has no fluid")?);
+            rise(|| build(&block), |_| Vec::new())
+        }
+        Scene::Crowd => {
+            let (crowd, build) = (Crowd::new(count), engine.crowd.ok_or("it has no crowd")?);
+            rise(|| build(&crowd), |step| crowd.directions(step))
+        }
+    };
+    println!("{}", bytes?);
     Ok(())
+}
+
+/// By how much the peak rises while a world is made and takes its steps.
+fn rise(build: impl FnOnce() -> Box<dyn Peer>, goals: impl Fn(u64) -> Vec<Vec2>) -> Result<u64, String> {
+    let before = peak()?;
+    let mut peer = build();
+    (0..STEPS).for_each(|step| peer.step(&goals(step)));
+    black_box(peer);
+    Ok(peak()? - before)
 }
 
 /// Most memory that this process ever held, bytes.

@@ -1,8 +1,12 @@
 //! How well an engine does its work, measured for all of them alike: from positions alone.
 
+mod crowd;
+
 use crate::scene::{DISCS, DT, FluidBlock, OUTER_RADIUS, Platelet, PlateletField, Pusher, SATELLITES};
 use microsim_core::glam::Vec2;
 use serde::{Deserialize, Serialize};
+
+pub(crate) use crowd::CrowdQuality;
 
 /// Of a row. What does not apply is left out.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -38,6 +42,9 @@ pub(crate) struct Quality {
     /// Kinetic energy per particle of mass 1 in the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kinetic_energy_end: Option<f64>,
+    /// All that is measured of a crowd.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crowd: Option<CrowdQuality>,
 }
 
 /// Takes the larger; a number that is none counts as infinite.

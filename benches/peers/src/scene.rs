@@ -1,4 +1,6 @@
-//! What every engine is given: the platelet field and the fluid block, in numbers, without any engine's terms.
+//! What every engine is given: the platelet field, the fluid block and the crowd, in numbers, without any engine's terms.
+
+pub(crate) mod crowd;
 
 use microsim_core::Rng;
 use microsim_core::glam::Vec2;

@@ -1,21 +1,25 @@
 //! The engines: one file each, one line each in the table. Another configuration of an engine is another line.
 
 mod microsim;
+mod microsim_crowd;
 mod native;
+mod native_crowd;
+mod rapier_crowd;
 mod rapier_joints;
 mod rapier_soft;
 mod salva;
 
+use crate::scene::crowd::Crowd;
 use crate::scene::{FluidBlock, PlateletField};
 use microsim_core::glam::Vec2;
 
 /// A scene in an engine.
 pub(crate) trait Peer {
-    /// One step; pushers head for these places.
+    /// One step; pushers head for these places, or cells in these directions.
     fn step(&mut self, goals: &[Vec2]);
 
     /// Where everything is, in the scene's order: of a platelet nucleus, interlayer and satellites, then the pushers; or
-    /// the fluid.
+    /// the fluid; or of each cell the ring and the cytoplasm.
     fn positions(&self) -> Vec<Vec2>;
 }
 
@@ -38,14 +42,22 @@ pub(crate) struct Engine {
     pub settings: &'static str,
     pub platelets: Option<Build<PlateletField>>,
     pub fluid: Option<Build<FluidBlock>>,
+    pub crowd: Option<Build<Crowd>>,
     /// Largest fluid that it is asked to run, particles.
     pub most_fluid: usize,
     pub clock: Clock,
 }
 
 impl Engine {
-    const NONE: Self =
-        Self { name: "", settings: "", platelets: None, fluid: None, most_fluid: usize::MAX, clock: Clock::Thread };
+    const NONE: Self = Self {
+        name: "",
+        settings: "",
+        platelets: None,
+        fluid: None,
+        crowd: None,
+        most_fluid: usize::MAX,
+        clock: Clock::Thread,
+    };
 
     /// Whether this is a configuration of ours.
     pub(crate) fn is_microsim(&self) -> bool {
@@ -60,6 +72,7 @@ pub(crate) const ENGINES: &[Engine] = &[
         settings: "3 substeps; fluid 2 substeps",
         platelets: Some(microsim::platelets),
         fluid: Some(microsim::fluid),
+        crowd: Some(microsim_crowd::crowd),
         ..Engine::NONE
     },
     Engine {
@@ -83,9 +96,10 @@ pub(crate) const ENGINES: &[Engine] = &[
     },
     Engine {
         name: "liquidfun",
-        settings: "1.1 (Box2D 2.3), 8 velocity and 3 position iterations; fluid 2 particle iterations",
+        settings: "1.1 (Box2D 2.3), 8 velocity and 3 position iterations; fluid and cytoplasm 2 particle iterations",
         platelets: Some(native::liquidfun),
         fluid: Some(native::liquidfun_fluid),
+        crowd: Some(native_crowd::liquidfun),
         ..Engine::NONE
     },
     #[cfg(has_chipmunk)]
@@ -98,8 +112,9 @@ pub(crate) const ENGINES: &[Engine] = &[
     },
     Engine {
         name: "rapier-soft",
-        settings: "0.36, soft-body disks, 4 solver iterations, no core discs",
+        settings: "0.36, soft-body disks, 4 solver iterations, no core discs; crowd: soft rings around rigid balls",
         platelets: Some(rapier_soft::platelets),
+        crowd: Some(rapier_crowd::crowd),
         ..Engine::NONE
     },
     Engine {

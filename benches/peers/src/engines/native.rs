@@ -3,6 +3,7 @@
 #![allow(unsafe_code, reason = "foreign functions; each call below upholds what `native/peer.h` says")]
 
 use super::Peer;
+use super::native_crowd::CrowdDescription;
 use crate::scene::{self, DISCS, DT, FluidBlock, Platelet, PlateletField, Pusher, SATELLITES};
 use microsim_core::glam::Vec2;
 use std::ffi::c_void;
@@ -21,7 +22,7 @@ const ANCHOR: u32 = 3;
 
 #[repr(C)]
 #[derive(Clone, Copy)]
-struct Vector {
+pub(super) struct Vector {
     x: f32,
     y: f32,
 }
@@ -77,27 +78,29 @@ struct Block {
 }
 
 #[repr(C)]
-struct Functions {
+pub(super) struct Functions {
     create_field: Option<unsafe extern "C" fn(*const Field) -> *mut c_void>,
     create_block: Option<unsafe extern "C" fn(*const Block) -> *mut c_void>,
     step: unsafe extern "C" fn(*mut c_void, *const Vector),
     motion: unsafe extern "C" fn(*mut c_void, usize) -> Motion,
     destroy: unsafe extern "C" fn(*mut c_void),
+    pub(super) create_crowd: Option<unsafe extern "C" fn(*const CrowdDescription) -> *mut c_void>,
+    drive: Option<unsafe extern "C" fn(*mut c_void, usize, Vector)>,
 }
 
 unsafe extern "C" {
     static BOX2D: Functions;
-    static LIQUIDFUN: Functions;
+    pub(super) static LIQUIDFUN: Functions;
     #[cfg(has_chipmunk)]
     static CHIPMUNK: Functions;
 }
 
 /// A world of such an engine.
-struct Native {
-    functions: &'static Functions,
-    world: *mut c_void,
-    count: usize,
-    pushers: usize,
+pub(super) struct Native {
+    pub(super) functions: &'static Functions,
+    pub(super) world: *mut c_void,
+    pub(super) count: usize,
+    pub(super) pushers: usize,
 }
 
 /// Box2D 3.
@@ -167,6 +170,18 @@ impl Native {
         // SAFETY: the world lives, and the index is one of its bodies'.
         unsafe { (self.functions.motion)(self.world, index) }
     }
+
+    pub(super) fn position(&self, index: usize) -> Vec2 {
+        glam(self.motion(index).position)
+    }
+
+    /// Sets the velocity of a ring's disc.
+    pub(super) fn drive(&mut self, index: usize, velocity: Vec2) {
+        debug_assert!(index < self.count);
+        let drive = self.functions.drive.expect("the engine has crowds");
+        // SAFETY: the world lives, and the index is one of its discs'.
+        unsafe { drive(self.world, index, vector(velocity)) };
+    }
 }
 
 impl Peer for Native {
@@ -183,7 +198,7 @@ impl Peer for Native {
     }
 
     fn positions(&self) -> Vec<Vec2> {
-        (0..self.count).map(|index| glam(self.motion(index).position)).collect()
+        (0..self.count).map(|index| self.position(index)).collect()
     }
 }
 
@@ -194,7 +209,7 @@ impl Drop for Native {
     }
 }
 
-fn vector(v: Vec2) -> Vector {
+pub(super) fn vector(v: Vec2) -> Vector {
     Vector { x: v.x, y: v.y }
 }
 
