@@ -50,7 +50,7 @@ const BENDS: f32 = 0.35;
 const CHROMATIN: [f32; 2] = [-0.70, 0.15];
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
 const CLUMPS: f32 = 1.8;
-const ENVELOPE: f32 = 0.25;
+const ENVELOPE: f32 = 0.14;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 0.2;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
