@@ -107,15 +107,15 @@ impl Spec for PlateletSpec {
     fn look(&self) -> Look {
         Look {
             image: ImageLook::Round(&RoundLook {
-                profile: Profile::Dome(0.75),
-                matter: Matter { phase: 0.22, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.04 },
+                profile: Profile::Dome(0.9),
+                matter: Matter { phase: 0.22, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.04 },
                 variation: 0.35,
                 texture: Texture { amount: 0.2, size: 0.45 },
                 outline: OutlineLook {
                     size: 0.10,
-                    waves: [0.13, 0.08],
+                    waves: [0.12, 0.055],
                     decay: 1.7,
-                    spread: 0.8,
+                    spread: 0.7,
                     spikes: [0, 4],
                     ..OutlineLook::EVEN
                 },
@@ -154,10 +154,10 @@ const LUMPS: Inclusion = Inclusion {
 };
 
 const GRANULES: Inclusion = Inclusion {
-    count: [24, 60],
-    radius: [0.025, 0.085],
+    count: [16, 40],
+    radius: [0.04, 0.10],
     place: [0.0, 0.62],
-    matter: Matter { phase: 0.085, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.42 },
+    matter: Matter { phase: 0.10, haemoglobin: 0.0, cytoplasm: 0.25, nucleus: 0.42 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };

@@ -12,7 +12,7 @@ use crate::microscope::surround_wave::Surround;
 /// Defocus over the wave number for each unit of `f`, square micrometres per radian.
 const DEFOCUS: f32 = 0.10;
 /// Distance over which the curvature of the delay is taken, micrometres.
-const STEP: f32 = 0.30;
+const STEP: f32 = 0.24;
 /// Largest `f`, the noise at which it is half of that, and the distance over which it changes, micrometres.
 const FOCUS: [f32; 3] = [0.65, 0.18, 110.0];
 const FOCUS_SEED: u32 = 0xf0c5;

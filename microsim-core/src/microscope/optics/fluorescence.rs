@@ -15,11 +15,11 @@ const UNEVEN_SIZE: f32 = 19.0;
 const UNEVEN_SEED: u32 = 0xa07;
 /// Share of the light that is out of focus, and spreads around what shines.
 const HAZE: f32 = 0.55;
-const NUCLEUS: [f32; 3] = [0.05, 0.17, 0.95];
-const CYTOPLASM: [f32; 3] = [0.02, 0.34, 0.05];
+const NUCLEUS: [f32; 3] = [0.05, 0.15, 0.80];
+const CYTOPLASM: [f32; 3] = [0.03, 0.52, 0.07];
 
 /// Condensed chromatin shines more than its amount: of it, this share goes by the square.
-const CONDENSED: f32 = 0.85;
+const CONDENSED: f32 = 0.95;
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.0;
 
