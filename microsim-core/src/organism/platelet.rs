@@ -108,7 +108,7 @@ impl Spec for PlateletSpec {
         Look {
             image: ImageLook::Round(&RoundLook {
                 profile: Profile::Dome(0.9),
-                matter: Matter { phase: 0.22, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.04 },
+                matter: Matter { phase: 0.34, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.04 },
                 variation: 0.35,
                 texture: Texture { amount: 0.2, size: 0.45 },
                 outline: OutlineLook {

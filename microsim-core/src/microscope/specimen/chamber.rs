@@ -23,7 +23,7 @@ const ALONG: f32 = 21.0;
 const CORNER: f32 = 1.5;
 /// Fringes of an edge above the plane of focus: strength as a share, chirp, and how far they reach, micrometres. They only
 /// add, because a target of bytes holds nothing that is less than nothing.
-const FRINGES: f32 = 0.07;
+const FRINGES: f32 = 0.045;
 const CHIRP: f32 = 1.6;
 /// Share by which the chirp differs along a wall.
 const SPREAD: f32 = 0.45;

@@ -315,13 +315,16 @@ impl RoundBody {
         let from = root(share);
         let outwards = -direction_or(root(share + 0.004) - root(share - 0.004), Vec2::X).perp();
         let wave = unit_vector(TAU * (share * cilia.waves - time * cilia.rate) + 0.6 * wobble(share * 40.0, self.seed));
-        let part = cilia.length * self.polar.mean / (CILIUM_POINTS - 1) as f32;
+        // No two beat quite alike, and some are bent or broken.
+        let mut rng = HashRng::new(self.seed ^ share.to_bits());
+        let aside = 0.16 * rng.normal();
+        let part = cilia.length * self.polar.mean * rng.range([0.6, 1.15]) / (CILIUM_POINTS - 1) as f32;
         let mut at = from;
         let point = |k: usize| {
             let point = at;
             let along = k as f32 / (CILIUM_POINTS - 2) as f32;
             let swing = mix(0.5 * wave.y - 0.3, 0.8 * wave.y - 0.55 + 0.35 * wave.x, along);
-            at += rotate(outwards, unit_vector(swing)) * part;
+            at += rotate(outwards, unit_vector(swing + aside)) * part;
             point
         };
         let points: [Vec2; CILIUM_POINTS] = std::array::from_fn(point);

@@ -35,16 +35,16 @@ const DENSER: GranuleLook = GranuleLook {
     limits: [0.4, 1.8],
     gathered: 0.0,
     companions: 0,
-    matter: Matter { phase: 0.006 * WAVE, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.0 },
+    matter: Matter { phase: 0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.0 },
     shape: SpotShape::Bump,
 };
 
 const THINNER: GranuleLook =
-    GranuleLook { matter: Matter { phase: -0.006 * WAVE, haemoglobin: 0.0, cytoplasm: -0.16, nucleus: 0.0 }, ..DENSER };
+    GranuleLook { matter: Matter { phase: -0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: -0.16, nucleus: 0.0 }, ..DENSER };
 
 const FINE: GranuleLook = GranuleLook {
-    density: 1.3,
-    radius: 0.20,
+    density: 2.0,
+    radius: 0.17,
     spread: 0.45,
     limits: [0.1, 0.6],
     gathered: 0.95,
