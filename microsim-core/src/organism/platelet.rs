@@ -110,13 +110,13 @@ impl Spec for PlateletSpec {
                 profile: Profile::Dome(0.9),
                 matter: Matter { phase: 0.34, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.04 },
                 variation: 0.35,
-                texture: Texture { amount: 0.2, size: 0.45 },
+                texture: Texture { amount: 0.09, size: 0.8 },
                 outline: OutlineLook {
                     size: 0.10,
-                    waves: [0.12, 0.055],
-                    decay: 1.7,
-                    spread: 0.7,
-                    spikes: [0, 4],
+                    waves: [0.12, 0.045],
+                    decay: 2.1,
+                    spread: 0.6,
+                    spikes: [0, 2],
                     ..OutlineLook::EVEN
                 },
                 inclusions: &[GRANULOMERE, LUMPS, GRANULES, RUFFLES],
@@ -138,7 +138,7 @@ const GRANULOMERE: Inclusion = Inclusion {
     count: [2, 3],
     radius: [0.40, 0.62],
     place: [0.0, 0.22],
-    matter: Matter { phase: 0.12, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.14 },
+    matter: Matter { phase: 0.12, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.20 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };
@@ -148,7 +148,7 @@ const LUMPS: Inclusion = Inclusion {
     count: [3, 9],
     radius: [0.12, 0.30],
     place: [0.0, 0.55],
-    matter: Matter { phase: 0.06, haemoglobin: 0.0, cytoplasm: 0.10, nucleus: 0.14 },
+    matter: Matter { phase: 0.06, haemoglobin: 0.0, cytoplasm: 0.10, nucleus: 0.20 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };

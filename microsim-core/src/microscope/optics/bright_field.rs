@@ -17,7 +17,7 @@ const STEP: f32 = 0.24;
 const FOCUS: [f32; 3] = [0.65, 0.18, 110.0];
 const FOCUS_SEED: u32 = 0xf0c5;
 /// Mottling of the light by what lies far above and below the specimen, as a share, and its size, micrometres.
-const MOTTLE: [f32; 2] = [0.022, 1.1];
+const MOTTLE: [f32; 2] = [0.024, 0.9];
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
 
@@ -54,7 +54,7 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let [largest, half, size] = FOCUS;
     let place = sampler.raster.grid.place(x, y);
     let noise = octaves(place / size, 1, FOCUS_SEED);
-    let mottle = 1.0 + MOTTLE[0] * octaves(place / MOTTLE[1], 3, FOCUS_SEED);
+    let mottle = 1.0 + MOTTLE[0] * octaves(place / MOTTLE[1], 2, FOCUS_SEED);
     let focus = largest * noise / (noise.abs() + half);
     let focused = (1.0 - DEFOCUS * focus * sampler.curvature(x, y, STEP)).clamp(0.2, 2.0);
     // A camera's contrast.

@@ -10,16 +10,16 @@ use crate::microscope::surround_wave::Surround;
 /// Camera's offset and autofluorescence.
 const DARK: [f32; 3] = [0.044, 0.086, 0.092];
 /// Share by which autofluorescence of the medium differs over a distance, micrometres.
-const UNEVEN: f32 = 0.5;
-const UNEVEN_SIZE: f32 = 19.0;
+const UNEVEN: f32 = 0.35;
+const UNEVEN_SIZE: f32 = 28.0;
 const UNEVEN_SEED: u32 = 0xa07;
 /// Share of the light that is out of focus, and spreads around what shines.
 const HAZE: f32 = 0.55;
-const NUCLEUS: [f32; 3] = [0.05, 0.15, 0.80];
+const NUCLEUS: [f32; 3] = [0.05, 0.16, 0.95];
 const CYTOPLASM: [f32; 3] = [0.03, 0.52, 0.07];
 
 /// Condensed chromatin shines more than its amount: of it, this share goes by the square.
-const CONDENSED: f32 = 0.95;
+const CONDENSED: f32 = 0.7;
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.0;
 

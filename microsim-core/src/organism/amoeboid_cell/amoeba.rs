@@ -14,7 +14,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         behind: 0.0,
         spread: 0.0,
         bent: 0.06,
-        matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
+        matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 0.85 },
         texture: Texture { amount: 0.26, size: 0.9 },
         nucleoli: [1, 4],
     },
@@ -39,8 +39,10 @@ const DENSER: GranuleLook = GranuleLook {
     shape: SpotShape::Bump,
 };
 
-const THINNER: GranuleLook =
-    GranuleLook { matter: Matter { phase: -0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: -0.16, nucleus: 0.0 }, ..DENSER };
+const THINNER: GranuleLook = GranuleLook {
+    matter: Matter { phase: -0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: -0.16, nucleus: 0.0 },
+    ..DENSER
+};
 
 const FINE: GranuleLook = GranuleLook {
     density: 2.0,

@@ -14,7 +14,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         behind: 0.16,
         spread: 0.42,
         bent: 0.10,
-        matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
+        matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 1.0 },
         texture: Texture { amount: 0.32, size: 0.8 },
         nucleoli: [0, 0],
     },
