@@ -27,7 +27,8 @@ pub struct Film {
     pub blotches: f32,
     /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5.
     pub glare: f32,
-    /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis, 0 to 0.5.
+    /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis,
+    /// 0 to 0.5. Broad shadows are up to four times as deep.
     pub gradient: f32,
     /// Deepest shadow of dust near the sensor, as a share of the light, 0 to 1.
     pub dust: f32,

@@ -16,7 +16,7 @@ const UNEVEN_SEED: u32 = 0xa07;
 /// Share of the light that is out of focus, and spreads around what shines.
 const HAZE: f32 = 0.55;
 const NUCLEUS: [f32; 3] = [0.05, 0.16, 0.95];
-const CYTOPLASM: [f32; 3] = [0.03, 0.52, 0.07];
+const CYTOPLASM: [f32; 3] = [0.03, 0.45, 0.06];
 
 /// Condensed chromatin shines more than its amount: of it, this share goes by the square.
 const CONDENSED: f32 = 0.7;

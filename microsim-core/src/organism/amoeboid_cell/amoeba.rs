@@ -73,6 +73,6 @@ const VACUOLES: GranuleLook = GranuleLook {
     limits: [0.5, 2.4],
     gathered: 0.3,
     companions: 0,
-    matter: Matter { phase: -0.012 * WAVE, haemoglobin: 0.0, cytoplasm: -0.22, nucleus: 0.0 },
+    matter: Matter { phase: -0.012 * WAVE, haemoglobin: 0.0, cytoplasm: -0.07, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
