@@ -35,12 +35,12 @@ const DENSER: GranuleLook = GranuleLook {
     limits: [0.4, 1.8],
     gathered: 0.0,
     companions: 0,
-    matter: Matter { phase: 0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.0 },
+    matter: Matter { phase: 0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: 0.07, nucleus: 0.0 },
     shape: SpotShape::Bump,
 };
 
 const THINNER: GranuleLook = GranuleLook {
-    matter: Matter { phase: -0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: -0.16, nucleus: 0.0 },
+    matter: Matter { phase: -0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: -0.07, nucleus: 0.0 },
     ..DENSER
 };
 
