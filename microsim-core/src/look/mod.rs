@@ -137,6 +137,8 @@ pub(crate) struct RoundLook {
     pub inclusions: &'static [Inclusion],
     pub cilia: Option<&'static Cilia>,
     pub pellicle: Option<&'static Pellicle>,
+    /// Most of the tapering processes that its edge is drawn out into.
+    pub filopodia: u32,
 }
 
 impl RoundLook {
@@ -150,6 +152,7 @@ impl RoundLook {
         inclusions: &[],
         cilia: None,
         pellicle: None,
+        filopodia: 0,
     };
 }
 
@@ -279,6 +282,9 @@ pub(crate) struct AmoeboidLook {
     pub nucleus: NucleusLook,
     /// Carried by the cytoplasm.
     pub granules: &'static [GranuleLook],
+    /// Mitochondria, per square micrometre, and the longest.
+    pub mitochondria: f32,
+    pub longest_mitochondrion: f32,
     /// Retraction fibres that the tail drags behind it.
     pub fibres: u32,
     /// Thin processes that come and go around it: their number, and the longest.

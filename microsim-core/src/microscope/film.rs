@@ -27,7 +27,8 @@ pub struct Film {
     pub blotches: f32,
     /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5.
     pub glare: f32,
-    /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis, 0 to 0.5.
+    /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis,
+    /// 0 to 0.5. Broad shadows are up to four times as deep.
     pub gradient: f32,
     /// Deepest shadow of dust near the sensor, as a share of the light, 0 to 1.
     pub dust: f32,
@@ -119,12 +120,16 @@ impl Camera {
     fn of(film: &Film, seed: u32) -> Self {
         let mut rng = HashRng::new(seed ^ 0xd057);
         let gradient = Vec2::new(rng.normal(), rng.normal()) * film.gradient;
-        let mut shadow = || Shadow {
-            at: Vec2::new(rng.range([-0.9, 0.9]), rng.range([-0.7, 0.7])),
-            radius: rng.range([0.015, 0.05]),
-            depth: film.dust * rng.unit(),
+        let mut shadow = |k: usize| {
+            let at = Vec2::new(rng.range([-0.9, 0.9]), rng.range([-0.7, 0.7]));
+            let (size, share) = (rng.unit(), rng.unit());
+            if k < GRAINS_OF_DUST {
+                Shadow { at, radius: mix(0.015, 0.05, size), depth: film.dust * share }
+            } else {
+                Shadow { at, radius: mix(0.4, 1.0, size), depth: UNEVEN * film.gradient * share }
+            }
         };
-        Self { gradient, shadows: std::array::from_fn(|_| shadow()) }
+        Self { gradient, shadows: std::array::from_fn(&mut shadow) }
     }
 
     /// Light at a place, 1 in the middle of an even field.
@@ -163,8 +168,11 @@ const COARSE: f32 = 0.12;
 const BLOTCHES: [f32; 3] = [0.8, 0.3, 2.4];
 const BLOTCH_SIZE: f32 = 6.0;
 const DARK_BLOTCHES: f32 = 0.2;
-/// Shadows of dust.
-pub(super) const SHADOWS: usize = 3;
+/// Shadows of dust, and all shadows: the others are broad and shallow, where the condenser lights the field less.
+const GRAINS_OF_DUST: usize = 3;
+pub(super) const SHADOWS: usize = 5;
+/// Deepest of those, in the light's growth from the middle on.
+const UNEVEN: f32 = 4.0;
 /// Standard deviation of the unsharp mask, pixels of the picture.
 pub(super) const MASK: f32 = 1.3;
 

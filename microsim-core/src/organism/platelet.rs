@@ -107,19 +107,20 @@ impl Spec for PlateletSpec {
     fn look(&self) -> Look {
         Look {
             image: ImageLook::Round(&RoundLook {
-                profile: Profile::Dome(0.3),
-                matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: 0.28, nucleus: 0.06 },
-                variation: 0.3,
-                texture: Texture { amount: 0.12, size: 0.7 },
+                profile: Profile::Dome(0.9),
+                matter: Matter { phase: 0.34, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.04 },
+                variation: 0.35,
+                texture: Texture { amount: 0.09, size: 0.8 },
                 outline: OutlineLook {
-                    size: 0.05,
-                    waves: [0.09, 0.06],
-                    decay: 1.9,
-                    spread: 0.8,
-                    spikes: [0, 4],
+                    size: 0.10,
+                    waves: [0.12, 0.045],
+                    decay: 2.1,
+                    spread: 0.6,
+                    spikes: [0, 2],
                     ..OutlineLook::EVEN
                 },
-                inclusions: &[GRANULOMERE, GRANULES],
+                inclusions: &[GRANULOMERE, LUMPS, GRANULES, RUFFLES],
+                filopodia: 3,
                 ..RoundLook::PLAIN
             }),
             drawn: DrawnLook {
@@ -135,18 +136,38 @@ impl Spec for PlateletSpec {
 /// The thick middle.
 const GRANULOMERE: Inclusion = Inclusion {
     count: [2, 3],
-    radius: [0.30, 0.52],
-    place: [0.0, 0.28],
-    matter: Matter { phase: 0.17, haemoglobin: 0.0, cytoplasm: 0.22, nucleus: 0.12 },
+    radius: [0.40, 0.62],
+    place: [0.0, 0.22],
+    matter: Matter { phase: 0.12, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.20 },
+    shape: SpotShape::Bump,
+    grains: [0, 0],
+};
+
+/// What it is uneven by.
+const LUMPS: Inclusion = Inclusion {
+    count: [3, 9],
+    radius: [0.12, 0.30],
+    place: [0.0, 0.55],
+    matter: Matter { phase: 0.06, haemoglobin: 0.0, cytoplasm: 0.10, nucleus: 0.20 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };
 
 const GRANULES: Inclusion = Inclusion {
-    count: [10, 30],
-    radius: [0.04, 0.15],
-    place: [0.0, 0.5],
-    matter: Matter { phase: 0.20, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.5 },
+    count: [16, 40],
+    radius: [0.04, 0.10],
+    place: [0.0, 0.62],
+    matter: Matter { phase: 0.10, haemoglobin: 0.0, cytoplasm: 0.25, nucleus: 0.42 },
+    shape: SpotShape::Bump,
+    grains: [0, 0],
+};
+
+/// Folds of the thin sheet near its edge.
+const RUFFLES: Inclusion = Inclusion {
+    count: [4, 12],
+    radius: [0.06, 0.20],
+    place: [0.70, 0.96],
+    matter: Matter { phase: 0.08, haemoglobin: 0.0, cytoplasm: 0.07, nucleus: 0.0 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };

@@ -12,10 +12,12 @@ use crate::microscope::surround_wave::Surround;
 /// Defocus over the wave number for each unit of `f`, square micrometres per radian.
 const DEFOCUS: f32 = 0.10;
 /// Distance over which the curvature of the delay is taken, micrometres.
-const STEP: f32 = 0.30;
+const STEP: f32 = 0.24;
 /// Largest `f`, the noise at which it is half of that, and the distance over which it changes, micrometres.
 const FOCUS: [f32; 3] = [0.65, 0.18, 110.0];
 const FOCUS_SEED: u32 = 0xf0c5;
+/// Mottling of the light by what lies far above and below the specimen, as a share, and its size, micrometres.
+const MOTTLE: [f32; 2] = [0.024, 0.9];
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.60;
 
@@ -26,6 +28,7 @@ const GLSL: Glsl = Glsl {
         ("STEP", &[STEP]),
         ("FOCUS", &FOCUS),
         ("FOCUS_SHIFT", &shift_of(FOCUS_SEED)),
+        ("MOTTLE", &MOTTLE),
         ("BACKGROUND", &[BACKGROUND]),
     ],
 };
@@ -49,10 +52,12 @@ const MODE: Mode = Mode {
 fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let (wave, surround) = sampler.waves(x, y);
     let [largest, half, size] = FOCUS;
-    let noise = octaves(sampler.raster.grid.place(x, y) / size, 1, FOCUS_SEED);
+    let place = sampler.raster.grid.place(x, y);
+    let noise = octaves(place / size, 1, FOCUS_SEED);
+    let mottle = 1.0 + MOTTLE[0] * octaves(place / MOTTLE[1], 2, FOCUS_SEED);
     let focus = largest * noise / (noise.abs() + half);
     let focused = (1.0 - DEFOCUS * focus * sampler.curvature(x, y, STEP)).clamp(0.2, 2.0);
     // A camera's contrast.
     let light = (wave + (wave - surround).perp() * focus).length_squared() * focused;
-    grey(BACKGROUND * light * light.sqrt())
+    grey(BACKGROUND * mottle * light * light.sqrt())
 }

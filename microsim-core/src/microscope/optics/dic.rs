@@ -11,7 +11,7 @@ use glam::Vec2;
 /// Half the shear, micrometres: towards the upper left, where the light seems to come from.
 const SHEAR: Vec2 = Vec2::new(-0.094, 0.094);
 /// Bias, radians.
-const BIAS: f32 = 0.9;
+const BIAS: f32 = 0.72;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.43;
 

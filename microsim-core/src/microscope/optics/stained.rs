@@ -18,7 +18,7 @@ const HAEMOGLOBIN: [f32; 3] = [0.092, 0.252, 0.200];
 const CYTOPLASM: [f32; 3] = [0.115, 0.290, 0.045];
 const NUCLEUS: [f32; 3] = [0.36, 0.66, -0.16];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
-const PLASMA: [f32; 3] = [0.014, 0.007, 0.011];
+const PLASMA: [f32; 3] = [0.021, 0.012, 0.017];
 /// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.
 const TONE: f32 = 0.22;
 /// Defocus over the wave number in red, green and blue, square micrometres per radian.
@@ -31,7 +31,7 @@ const BLUE_SHIFT: Vec2 = Vec2::new(-0.04, -0.19);
 const BLUE_BLUR: Vec2 = Vec2::new(0.10, 0.07);
 
 /// Length and width of the streaks of plasma, micrometres, their direction, and the noise that they are.
-const PLASMA_SIZE: Vec2 = Vec2::new(19.0, 6.5);
+const PLASMA_SIZE: Vec2 = Vec2::new(11.0, 3.4);
 const PLASMA_WAY: Vec2 = Vec2::new(0.8, 0.6);
 const PLASMA_SEED: u32 = 0x57a1;
 /// A dry smear is not thicker where a living cell is: cytoplasm counts as `c / (DRY[0] + DRY[1] c)`.

@@ -79,7 +79,7 @@ void main() {
     vec2 turned = turn * from_centre;
     float nucleus = nucleus_at(at, turn, turned, softness);
     float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(turned / nucleus_texture.y, shifts[2]));
-    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.35 * dense - 1.0)));
+    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0)));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

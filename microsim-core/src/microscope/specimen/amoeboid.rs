@@ -47,10 +47,10 @@ const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.35;
 /// Noise from and to which chromatin is dense.
-const CHROMATIN: [f32; 2] = [-0.70, 0.15];
+const CHROMATIN: [f32; 2] = [-0.80, 0.55];
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
 const CLUMPS: f32 = 1.8;
-const ENVELOPE: f32 = 0.25;
+const ENVELOPE: f32 = 0.14;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 0.2;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
@@ -233,7 +233,7 @@ impl AmoeboidBody {
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
             let noise = octaves(self.turned(place) / texture.size, 3, self.seed ^ SALTS[2]);
-            let clumps = CLUMPS * texture.amount * (1.35 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
+            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
             matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
         }
         matter * smoothstep(-softness, softness, depth)

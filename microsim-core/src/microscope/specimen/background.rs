@@ -14,10 +14,10 @@ use glam::{IVec2, Vec2};
 
 /// Side of the cells in which single specks are strewn, micrometres, and specks in each on average.
 const DUST_CELL: f32 = 5.0;
-const DUST: f32 = 0.30;
+const DUST: f32 = 0.65;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 2.5;
+const CLUMPS: f32 = 3.2;
 const PATCHES: f32 = 34.0;
 /// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
 const GRAINS: f32 = 3.0;
@@ -27,7 +27,7 @@ const MOST_GRAINS: usize = 34;
 const TIPS: usize = 5;
 /// The same for what is out of focus.
 const FAR_CELL: f32 = 26.0;
-const FAR: f32 = 0.45;
+const FAR: f32 = 0.9;
 /// The same for fibres, and the points of each.
 const FIBRE_CELL: f32 = 60.0;
 const FIBRES: f32 = 0.35;
@@ -44,12 +44,14 @@ const LONGEST_STREAK: f32 = 100.0;
 const LINE_POINTS: usize = 6;
 /// Share of the camera's movement that things out of focus seem to make.
 const PARALLAX: f32 = 0.15;
+/// What of a thing out of focus takes up dye, for each radian of its delay.
+const FAR_DYED: f32 = 1.3;
 /// Pixels from and to which dust fades because it is too small to be seen, and those where the other things are,
 /// micrometres.
 const DUST_FADES: [f32; 2] = [0.5, 1.0];
 const FAR_ENDS: f32 = 2.0;
 /// Strength and size of the glass's unevenness, radians and micrometres.
-const FINE: f32 = 0.010;
+const FINE: f32 = 0.013;
 const FINE_SIZE: f32 = 1.2;
 const COARSE: f32 = 0.035;
 const COARSE_SIZE: f32 = 15.0;
@@ -184,7 +186,8 @@ impl BackgroundMatter {
         let along = rng.direction() * (1.2 * rng.unit());
         let mut at = at + drift;
         for _ in 0..1 + rng.bits() % 4 {
-            let matter = Matter::phase(rng.range([0.03, 0.11]));
+            let dense = rng.range([0.03, 0.11]);
+            let matter = Matter { cytoplasm: FAR_DYED * dense, ..Matter::phase(dense) };
             spots.push(Spot { at, radius: radius * rng.range([0.6, 1.1]), matter, shape });
             at += (rng.direction() + along) * (0.4 * radius);
         }
@@ -240,7 +243,7 @@ fn line(at: Vec2, way: Vec2, bend: f32, radius: f32, phase: f32, rng: &mut HashR
 
 /// Visits the things in the cells of an endless square grid that a box touches, so many in each on average; `shift` moves
 /// the grid.
-fn strewn(
+pub(super) fn strewn(
     (low, high): (Vec2, Vec2),
     shift: Vec2,
     [cell, expected]: [f32; 2],

@@ -1,7 +1,10 @@
 //! The chamber: walls and obstacles, of a clear polymer that is a little denser than the medium.
 
+use super::background::strewn;
 use super::distance_field::DistanceField;
+use super::spot::Spot;
 use crate::collision::obstacle::Obstacle;
+use crate::look::SpotShape;
 use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
@@ -10,9 +13,9 @@ use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
 use glam::Vec2;
 
 /// Polymer from its rim on.
-const POLYMER: Matter = Matter { phase: 1.3, haemoglobin: 0.10, cytoplasm: 0.03, nucleus: 0.0 };
+const POLYMER: Matter = Matter { phase: 0.85, haemoglobin: 0.12, cytoplasm: 0.05, nucleus: 0.0 };
 /// Width over which it rises, micrometres, and the share by which that differs along a wall: its side is not upright.
-const RIM: f32 = 2.6;
+const RIM: f32 = 4.6;
 const LEANING: f32 = 0.7;
 /// Size of what differs along a wall, micrometres.
 const ALONG: f32 = 21.0;
@@ -20,18 +23,18 @@ const ALONG: f32 = 21.0;
 const CORNER: f32 = 1.5;
 /// Fringes of an edge above the plane of focus: strength as a share, chirp, and how far they reach, micrometres. They only
 /// add, because a target of bytes holds nothing that is less than nothing.
-const FRINGES: f32 = 0.12;
+const FRINGES: f32 = 0.045;
 const CHIRP: f32 = 1.6;
 /// Share by which the chirp differs along a wall.
 const SPREAD: f32 = 0.45;
 const REACH: f32 = 2.6;
 /// How far moulding leaves its edge rough, and over which size, micrometres.
-const ROUGH: f32 = 0.5;
-const ROUGH_SIZE: f32 = 5.0;
+const ROUGH: f32 = 1.0;
+const ROUGH_SIZE: f32 = 8.0;
 /// Most cells of an obstacle's map of depths, apart from its margin.
 const MOST_CELLS: f32 = 8192.0;
 /// Strength and size of its unevenness.
-const TEXTURE: f32 = 0.012;
+const TEXTURE: f32 = 0.03;
 const TEXTURE_SIZE: f32 = 4.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
@@ -53,6 +56,12 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
     ],
 };
 
+/// Side of the cells in which dirt is strewn that lies at walls, micrometres, and heaps in each on average; how deep in a wall,
+/// and how far from it, it lies, micrometres.
+const DIRT_CELL: f32 = 3.0;
+const DIRT: f32 = 1.5;
+const DIRT_DEPTH: f32 = 1.6;
+
 /// What nothing passes.
 #[derive(Clone, Debug)]
 pub(super) struct Chamber {
@@ -72,6 +81,36 @@ impl Chamber {
             let bounds = obstacle.aabb();
             raster.add(bounds.mins - REACH, bounds.maxs + REACH, |p| self.polymer(p, depth_in(obstacle, p)));
         }
+        self.dirt((low, high), raster.grid.pixel).iter().for_each(|spot| spot.draw(raster));
+    }
+
+    /// What gathers at walls and obstacles: heaps of grains, in focus or out of it.
+    fn dirt(&self, bounds: (Vec2, Vec2), pixel: f32) -> Vec<Spot> {
+        let strength = smoothstep(1.0, 0.5, pixel);
+        let mut spots = Vec::new();
+        if strength == 0.0 {
+            return spots;
+        }
+        strewn(bounds, Vec2::ZERO, [DIRT_CELL, DIRT], self.seed ^ 31, |at, rng| {
+            let walls = self.depth_in_wall(at).abs();
+            let near = self.obstacles.iter().map(|obstacle| depth_in(obstacle, at).abs()).fold(walls, smaller);
+            // Dirty here, clean there.
+            let dirty = smoothstep(-0.4, 0.8, octaves(at / ALONG, 2, self.seed ^ 32));
+            let (count, size) = (1 + rng.bits() % 5, 0.11 * libm::expf(0.5 * rng.normal()));
+            if near > DIRT_DEPTH * rng.unit() || rng.unit() > dirty {
+                return;
+            }
+            let dense = strength * 0.16 * libm::expf(0.5 * rng.normal());
+            let matter = Matter { haemoglobin: 0.3 * dense, nucleus: 0.2 * dense, ..Matter::phase(dense) };
+            let chirp = if rng.unit() < 0.4 { rng.range([2.5, 6.0]) } else { 0.0 };
+            let mut at = at;
+            for _ in 0..count {
+                let spot = Spot { at, radius: size * rng.range([0.7, 1.6]), matter, shape: SpotShape::Bump };
+                spots.push(if chirp > 0.0 { spot.out_of_focus(chirp) } else { spot });
+                at += rng.direction() * (1.5 * size);
+            }
+        });
+        spots
     }
 
     /// Walls and obstacles for [`GLSL`].
@@ -87,6 +126,7 @@ impl Chamber {
                 draws.add_apart(Program::Obstacle, &corners, QUAD.to_vec(), room.clone(), Some(map.texture()));
             }
         }
+        self.dirt((low, high), draws.pixel()).iter().for_each(|spot| spot.draw_on(draws));
     }
 
     fn has_walls_in(&self, low: Vec2, high: Vec2) -> bool {

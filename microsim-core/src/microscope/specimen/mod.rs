@@ -91,7 +91,7 @@ impl Specimen {
                 let Some(mut body) = AmoeboidBody::of(organism, look, seed, time) else { return };
                 body.swell(meals(organism, view));
                 self.spots.extend(body.spots(organism));
-                self.threads.extend(body.threads());
+                self.threads.extend(body.threads(organism));
                 self.spots.extend(phagosomes(&body, organism, view));
                 self.amoeboid.push(body);
             }

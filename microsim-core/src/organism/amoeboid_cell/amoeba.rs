@@ -14,13 +14,15 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         behind: 0.0,
         spread: 0.0,
         bent: 0.06,
-        matter: Matter { phase: 0.4, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.8 },
-        texture: Texture { amount: 0.2, size: 1.5 },
-        nucleoli: [1, 3],
+        matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 0.85 },
+        texture: Texture { amount: 0.26, size: 0.9 },
+        nucleoli: [1, 4],
     },
     granules: &[DENSER, THINNER, FINE, GRANULES, VACUOLES],
+    mitochondria: 0.22,
+    longest_mitochondrion: 2.6,
     fibres: 0,
-    processes: 7,
+    processes: 12,
     longest_process: 2.0,
     blebs: [0.0, 0.0],
 };
@@ -33,21 +35,23 @@ const DENSER: GranuleLook = GranuleLook {
     limits: [0.4, 1.8],
     gathered: 0.0,
     companions: 0,
-    matter: Matter { phase: 0.006 * WAVE, haemoglobin: 0.0, cytoplasm: 0.08, nucleus: 0.0 },
+    matter: Matter { phase: 0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: 0.07, nucleus: 0.0 },
     shape: SpotShape::Bump,
 };
 
-const THINNER: GranuleLook =
-    GranuleLook { matter: Matter { phase: -0.006 * WAVE, haemoglobin: 0.0, cytoplasm: -0.08, nucleus: 0.0 }, ..DENSER };
+const THINNER: GranuleLook = GranuleLook {
+    matter: Matter { phase: -0.0035 * WAVE, haemoglobin: 0.0, cytoplasm: -0.07, nucleus: 0.0 },
+    ..DENSER
+};
 
 const FINE: GranuleLook = GranuleLook {
-    density: 1.3,
-    radius: 0.20,
+    density: 2.0,
+    radius: 0.17,
     spread: 0.45,
     limits: [0.1, 0.6],
     gathered: 0.95,
     companions: 0,
-    matter: Matter { phase: 0.024 * WAVE, haemoglobin: 0.0, cytoplasm: 0.5, nucleus: 0.0 },
+    matter: Matter { phase: 0.024 * WAVE, haemoglobin: 0.0, cytoplasm: 1.4, nucleus: 0.15 },
     shape: SpotShape::Ball,
 };
 
@@ -58,7 +62,7 @@ const GRANULES: GranuleLook = GranuleLook {
     limits: [0.15, 0.9],
     gathered: 0.9,
     companions: 2,
-    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.15, nucleus: 0.0 },
+    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.6, nucleus: 0.12 },
     shape: SpotShape::Ball,
 };
 
@@ -69,6 +73,6 @@ const VACUOLES: GranuleLook = GranuleLook {
     limits: [0.5, 2.4],
     gathered: 0.3,
     companions: 0,
-    matter: Matter { phase: -0.012 * WAVE, haemoglobin: 0.0, cytoplasm: -0.14, nucleus: 0.0 },
+    matter: Matter { phase: -0.012 * WAVE, haemoglobin: 0.0, cytoplasm: -0.07, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

@@ -14,11 +14,13 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         behind: 0.16,
         spread: 0.42,
         bent: 0.10,
-        matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 1.0 },
+        matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 1.0 },
         texture: Texture { amount: 0.32, size: 0.8 },
         nucleoli: [0, 0],
     },
     granules: &[DENSE, CLEAR, VACUOLES],
+    mitochondria: 0.25,
+    longest_mitochondrion: 1.2,
     fibres: 3,
     processes: 10,
     longest_process: 1.6,
@@ -32,7 +34,7 @@ const DENSE: GranuleLook = GranuleLook {
     limits: [0.09, 0.45],
     gathered: 0.75,
     companions: 0,
-    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 2.6, nucleus: 0.0 },
+    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 3.4, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
@@ -43,7 +45,7 @@ const CLEAR: GranuleLook = GranuleLook {
     limits: [0.1, 0.4],
     gathered: 0.75,
     companions: 0,
-    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -2.2, nucleus: 0.0 },
+    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -2.8, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 

@@ -20,6 +20,7 @@ pub(super) const LOOK: RoundLook = RoundLook {
         vacuole_period: 12.0,
         vacuole_phase: -1.2,
     }),
+    filopodia: 0,
 };
 
 const GRANULES: Inclusion = Inclusion {

@@ -18,8 +18,9 @@ const JIGGLE_RATE: f32 = 3.0;
 /// radii.
 const AROUND: f32 = 0.32;
 const PATCHES: f32 = 0.40;
-/// A nucleolus of an otherwise even nucleus.
-const NUCLEOLUS: Matter = Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.35 };
+/// A nucleolus: dense, of RNA and protein; and the chromatin that it takes the place of.
+const NUCLEOLUS: Matter = Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.0 };
+const DISPLACED: Matter = Matter { phase: -0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: -0.34 };
 /// Share of the regions of granules that are out of focus.
 const OUT_OF_FOCUS: f32 = 0.3;
 /// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
@@ -56,7 +57,7 @@ impl AmoeboidBody {
     }
 
     /// How much granules gather at a place, 0 to 1: around the nucleus, and in patches elsewhere.
-    fn crowd(&self, place: Vec2) -> f32 {
+    pub(super) fn crowd(&self, place: Vec2) -> f32 {
         let apart = |&(lobe, radius): &(Vec2, f32)| (place - lobe).length() - radius;
         let nearest = self.lobes.iter().map(apart).fold(f32::INFINITY, smaller);
         let around = bell(larger(nearest, 0.0) / (AROUND * self.radius));
@@ -75,7 +76,8 @@ impl AmoeboidBody {
             for _ in 0..fewest + rng.bits() % (most - fewest + 1) {
                 let at = lobe + rotate(rng.direction() * (0.55 * size * rng.unit()), self.turn());
                 let radius = size * rng.range([0.16, 0.36]);
-                spots.push(Spot { at, radius, matter: NUCLEOLUS * share, shape: SpotShape::Bump });
+                let spot = |matter: Matter| Spot { at, radius, matter: matter * share, shape: SpotShape::Bump };
+                spots.extend([spot(NUCLEOLUS), spot(DISPLACED)]);
             }
         }
     }
