@@ -101,6 +101,16 @@ fn it_stays_inside_whatever_its_engulfer_does() {
 }
 
 #[test]
+fn new_cytoplasm_of_an_engulfer_does_not_appear_in_the_cell_that_it_holds() {
+    let (mut world, cell, prey) = swallowed(6.5);
+    let is_in_the_middle = |world: &World| contains_point(&outline(world, prey), world.centroid(cell).unwrap());
+    assert!((0..600).any(|_| (world.step(&Inputs::new()), is_in_the_middle(&world)).1));
+    world.grow(cell, 4, 40).unwrap();
+    assert_eq!((world.census().leaks, world.validate()), (0, Ok(())));
+    (0..60).for_each(|_| step_soundly(&mut world, &Inputs::new(), "after growth"));
+}
+
+#[test]
 fn it_is_in_one_daughter_of_an_engulfer_that_divides() {
     let (mut world, cell, prey) = scene_of(wide(), [15.0, 4.0]);
     assert!(hunt(&mut world, [cell, prey], 600, ingests));

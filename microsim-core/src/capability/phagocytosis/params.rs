@@ -33,11 +33,11 @@ pub struct PhagocytosisParams {
     pub heading_cosine: f32,
     /// Contacts of soft prey with the front that are needed at once, 1 to 100.
     pub soft_prey_contacts: u32,
-    /// Area of the engulfer's cytoplasm over the prey's area when spawned, at least, for prey of every kind, 1
+    /// Area of the engulfer's cytoplasm over the prey's area when spawned (a cell's: at rest), at least, for prey of every kind, 1
     /// to 1000: a cell does not go round what is larger than itself.
     pub size_ratio: f32,
     /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn to
-    /// the side where its centre is, and after as much time again put there. Soft prey has shrunk to its scale after a fixed
+    /// the side where its centre is, and after as much time again put there, but for cells. Soft prey has shrunk to its scale after a fixed
     /// share of this time.
     pub time_limit: f32,
     /// Speed at which prey is drawn to the centroid, units/s, 0.1 to 100.

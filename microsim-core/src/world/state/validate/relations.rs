@@ -91,6 +91,7 @@ fn check_held(world: &World, id: OrganismId, organism: &Organism, cell: Subject)
             .must(organism.prey.is_none() || !organism.is_cell(), || "it is prey, and nobody holds it".to_owned());
     };
     cell.must(!organism.is_cell() || organism.meals().is_empty(), || "it is held and holds prey".to_owned())?;
+    cell.must(organism.furrow().is_none(), || "it is held and divides".to_owned())?;
     let engulfer = world.organisms.get(holder).and_then(|holder| holder.engulfer.as_ref());
     let meal = engulfer.and_then(|engulfer| engulfer.meals.iter().find(|meal| meal.prey == id));
     let is_held = meal.is_some_and(|meal| !matches!(meal.phase, MealPhase::Touching(_)));
