@@ -230,6 +230,8 @@ pub enum Refusal {
     NoRoom,
     /// A half of a body cannot go on as its template says: the template is gone, or mass, size or what moves it does not suit.
     UnfitHalf,
+    /// It, or the other one, is held by a cell that takes it in or has taken it in.
+    Held,
 }
 
 impl Refusal {
@@ -249,6 +251,7 @@ impl Refusal {
             Self::WorldFull => "world_full",
             Self::NoRoom => "no_room",
             Self::UnfitHalf => "unfit_half",
+            Self::Held => "held",
         }
     }
 }

@@ -10,7 +10,7 @@ mod organism;
 pub mod palette;
 pub mod shape;
 
-use crate::{OrganismView, View};
+use crate::{Kind, OrganismView, View};
 use glam::Vec2;
 use palette::{PAGE, ROOM, ROOM_EDGE, WALL};
 use shape::{DrawnPart, Geometry, Item, Paint, Stroke};
@@ -55,7 +55,9 @@ pub fn draw(view: View<'_>, window: [Vec2; 2], layers: &[DrawingLayer]) -> Vec<I
     };
     let is_near = |organism: &OrganismView<'_>| is_seen(organism.bounds()) || images(organism).next().is_some();
     let mut organisms: Vec<_> = view.organisms().filter(is_near).collect();
-    organisms.sort_by_cached_key(|organism| organism.drawn_look().layer);
+    // Cells that others hold come last of their layer: they lie in these.
+    let is_in_another = |it: &OrganismView<'_>| it.kind() == Kind::AmoeboidCell && it.held_by().is_some();
+    organisms.sort_by_cached_key(|organism| (organism.drawn_look().layer, is_in_another(organism)));
     let size = config.size;
     let mut items = Vec::new();
     for layer in layers {

@@ -6,7 +6,7 @@ use crate::capability::controller::Controller;
 use crate::capability::crawl::Pseudopods;
 use crate::capability::division::{Divider, Furrow};
 use crate::capability::exchange::Exchange;
-use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, Prey};
+use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase, Prey, PreyClass};
 use crate::capability::progress::Progress;
 use crate::id::OrganismId;
 use crate::kind::Kind;
@@ -16,6 +16,7 @@ use crate::solver::fluid::{self, Fluid};
 use crate::solver::membrane::{Flexibility, Membrane, MembraneContent};
 use glam::Vec2;
 use serde::{Deserialize, Serialize};
+use std::f32::consts::PI;
 
 /// Rate at which stretching of a cell is damped, 1/s, times its number of particles of cytoplasm to the power of 3/4.
 const STRETCH_DAMPING: f32 = 450.0;
@@ -59,7 +60,8 @@ pub(crate) struct Organism {
     pub speed: f32,
     pub controller: Controller,
     pub rng: Rng,
-    /// Area that it had when it was spawned, square units; changes only by scaling (thesis, 3.3.1).
+    /// Area that it had when it was spawned, square units; changes only by scaling (thesis, 3.3.1). Of a cell with a membrane that
+    /// is held: that which it had when its ingestion began.
     pub spawn_area: f32,
     /// Its size relative to its template when it was spawned.
     pub spawn_scale: f32,
@@ -67,7 +69,7 @@ pub(crate) struct Organism {
     pub full_scale: f32,
     /// The capability to take others in.
     pub engulfer: Option<Engulfer>,
-    /// The capability to be taken in.
+    /// The capability to be taken in. A cell with a membrane has it while it is held.
     pub prey: Option<Prey>,
     /// What cups have cut off its membrane, around prey inside.
     pub phagosomes: Vec<Phagosome>,
@@ -124,9 +126,39 @@ impl Organism {
         self.prey.is_some_and(|prey| prey.held_by.is_some())
     }
 
-    /// Notes who has taken it in, if it is prey at all.
+    /// Notes who has taken it in, if it is prey at all, or a cell.
     pub(crate) fn set_held_by(&mut self, holder: Option<OrganismId>) {
-        self.prey = self.prey.map(|prey| Prey { held_by: holder, ..prey });
+        self.prey = match self.is_cell() {
+            true => holder.map(|_| Prey { class: PreyClass::Soft, held_by: holder }),
+            false => self.prey.map(|prey| Prey { held_by: holder, ..prey }),
+        };
+    }
+
+    /// Whether it has a membrane.
+    pub(crate) fn is_cell(&self) -> bool {
+        self.body.membrane().is_some()
+    }
+
+    /// What it is to somebody who takes prey in this way, if it can be taken in now. Cells are prey of those with a wide gate while
+    /// they hold nothing themselves: what is inside lies in one membrane of another.
+    pub(crate) fn class_for(&self, way: IngestionWay) -> Option<PreyClass> {
+        if self.is_held() || self.is_quarantined {
+            return None;
+        }
+        if !self.is_cell() {
+            return self.prey.map(|prey| prey.class);
+        }
+        let holds_nothing = self.meals().iter().all(|meal| matches!(meal.phase, MealPhase::Touching(_)));
+        let is_whole = self.furrow().is_none() && self.fluid.is_some();
+        (way == IngestionWay::WideGate && holds_nothing && is_whole).then_some(PreyClass::Soft)
+    }
+
+    /// Area that a cell takes up at rest, square units: that of its cytoplasm and of its membrane around it.
+    pub(crate) fn cell_area(&self, fluids: &[Fluid]) -> Option<f32> {
+        let (membrane, fluid) = (self.body.membrane()?, self.fluid?);
+        let content = fluid::rest_area(self.fluid_particles.len(), fluids[fluid as usize].params.spacing);
+        let radius = (content / PI).sqrt() + membrane.rim + membrane.node_radius;
+        Some(at_most(PI * radius * radius))
     }
 
     /// Takes note of the command to digest; returns whether it may move.

@@ -18,7 +18,7 @@ mod spec;
 mod storage;
 pub(crate) mod table;
 
-pub(crate) use amoeboid_cell::MAX_NODES;
+pub(crate) use amoeboid_cell::{LEAST_CYTOPLASM, MAX_NODES};
 pub(crate) use blueprint::{Blueprint, FluidPlan};
 pub(crate) use living::{MAX_SPEED, MOST, MOST_WANTED_NODES, Organism, Phagosome, at_most};
 pub use placement::Placement;

@@ -90,8 +90,9 @@ impl World {
 
     /// Present area of an organism.
     pub(in crate::world) fn area_of(&self, id: OrganismId) -> f32 {
+        let Some(organism) = self.organisms.get(id) else { return 0.0 };
         let scale = self.present_scale(id);
-        self.organisms.get(id).map_or(0.0, |organism| organism.spawn_area * (scale * scale))
+        organism.cell_area(&self.fluids).unwrap_or(organism.spawn_area * (scale * scale))
     }
 }
 

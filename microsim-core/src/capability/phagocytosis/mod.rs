@@ -27,7 +27,7 @@ pub enum PreyClass {
     Simple,
     /// A bacterium: taken in like simple prey, harder to digest.
     Bacterium,
-    /// A soft body: one at a time, of the right size, with the engulfer at rest.
+    /// A soft body, or an amoeboid cell: one at a time, of the right size, with the engulfer at rest.
     Soft,
 }
 
@@ -82,7 +82,8 @@ pub(crate) struct Engulfer {
     pub pending_growth: f32,
 }
 
-/// The capability to be ingested.
+/// The capability to be ingested. A cell with a membrane has it while it is held: what others make of it before is up to them
+/// ([`IngestionWay::WideGate`]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Prey {
     pub class: PreyClass,
@@ -107,6 +108,11 @@ impl Meal {
     /// Whether it is going in, and by a cup.
     pub(crate) fn is_in_cup(&self) -> bool {
         self.way == IngestionWay::Cup && matches!(self.phase, MealPhase::Ingesting(_))
+    }
+
+    /// Whether it is going in, and through a gate.
+    pub(crate) fn is_in_gate(&self) -> bool {
+        self.way != IngestionWay::Cup && matches!(self.phase, MealPhase::Ingesting(_))
     }
 }
 

@@ -17,6 +17,9 @@ pub enum IngestionWay {
     /// The membrane folds around the prey and the lips of the fold meet, as in real cells. The arc around the prey is cut off
     /// and encloses it inside the cell: the phagosome.
     Cup,
+    /// A gate that lets other amoeboid cells in, too, whole and alive, as it lets in any soft prey: those that neither divide nor
+    /// hold prey themselves, and are small enough.
+    WideGate,
 }
 
 /// Parameters of phagocytosis that the thesis leaves open.
@@ -30,11 +33,11 @@ pub struct PhagocytosisParams {
     pub heading_cosine: f32,
     /// Contacts of soft prey with the front that are needed at once, 1 to 100.
     pub soft_prey_contacts: u32,
-    /// Area of the engulfer's cytoplasm over the prey's area when spawned, at least, for prey of every kind, 1
+    /// Area of the engulfer's cytoplasm over the prey's area when spawned (a cell's: at rest), at least, for prey of every kind, 1
     /// to 1000: a cell does not go round what is larger than itself.
     pub size_ratio: f32,
     /// Time after which prey that is wholly outside is released, s, 0.1 to 60. Prey that is partly inside then is drawn to
-    /// the side where its centre is, and after as much time again put there. Soft prey has shrunk to its scale after a fixed
+    /// the side where its centre is, and after as much time again put there, but for cells. Soft prey has shrunk to its scale after a fixed
     /// share of this time.
     pub time_limit: f32,
     /// Speed at which prey is drawn to the centroid, units/s, 0.1 to 100.
@@ -82,10 +85,10 @@ impl PhagocytosisParams {
     }
 
     pub(crate) fn fields(&mut self, visit: &mut FieldVisitor<'_>) {
-        const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
-        let words = "How prey gets through the membrane: a cup folds around it, a gate lets it through.";
+        const WAYS: [IngestionWay; 3] = [IngestionWay::Gate, IngestionWay::Cup, IngestionWay::WideGate];
+        let words = "How prey gets through the membrane: a cup folds around it, a gate lets it through, a wide one other cells, too.";
         let mut way = self.way as usize;
-        visit(field("way", words), Word(&mut way, &["gate", "cup"]));
+        visit(field("way", words), Word(&mut way, &["gate", "cup", "wide_gate"]));
         self.way = WAYS[way];
         let words = "Time for which all conditions must hold before ingestion starts, s.";
         visit(field("hold_time", words), Number(&mut self.hold_time, [0.0, 10.0]));

@@ -36,7 +36,7 @@ use std::f32::consts::PI;
 pub(crate) const MAX_NODES: f32 = 4096.0;
 
 /// Fewest particles of cytoplasm: with less the membrane has nothing to hug.
-const LEAST_CYTOPLASM: usize = 7;
+pub(crate) const LEAST_CYTOPLASM: usize = 7;
 
 /// An ellipse with a semi-axis below this, in node radii, is nearly round: a narrower one becomes round in such a hurry that
 /// cytoplasm is pushed through its membrane and put back, by which the cell moves.

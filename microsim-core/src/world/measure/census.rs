@@ -20,7 +20,7 @@ pub struct Census {
     pub particles: usize,
     /// Constraints, without contacts, fluid density and links that tore.
     pub constraints: usize,
-    /// Cytoplasm particles outside their own membrane (ray cast, thesis, 3.1.3).
+    /// Cytoplasm particles outside their own membrane (ray cast, thesis, 3.1.3), or inside that of a cell that theirs holds.
     pub leaks: usize,
     /// Prey whose centre is inside an engulfer that has not taken it in (thesis, 4.2.2), or outside one that has.
     pub improper_absorptions: usize,
@@ -96,8 +96,19 @@ impl World {
             return 0;
         }
         let outline = self.outline_of(organism);
-        let is_outside = |&&i: &&u32| !contains_point(&outline, self.particles.position(i as usize));
-        organism.fluid_particles.iter().filter(is_outside).count()
+        let held = self.held_cells(organism);
+        let is_lost = |&&i: &&u32| {
+            let at = self.particles.position(i as usize);
+            !contains_point(&outline, at) || held.iter().any(|inner| contains_point(inner, at))
+        };
+        organism.fluid_particles.iter().filter(is_lost).count()
+    }
+
+    /// Outlines of the cells that a cell has taken in or takes in.
+    pub(in crate::world) fn held_cells(&self, organism: &Organism) -> Vec<Vec<Vec2>> {
+        let held = organism.meals().iter().filter(|meal| !matches!(meal.phase, MealPhase::Touching(_)));
+        let cells = held.filter_map(|meal| self.organisms.get(meal.prey)).filter(|prey| prey.is_cell());
+        cells.map(|cell| self.outline_of(cell)).collect()
     }
 
     /// Prey whose centre is inside an engulfer that does not hold it, or outside one that does.
@@ -123,11 +134,12 @@ impl World {
 
     /// Number of prey for which a condition holds with some engulfer, given the phase of the meal and the engulfer's outline.
     fn count_prey(&self, is_so: impl Fn(Option<MealPhase>, &[Vec2], &Organism) -> bool) -> usize {
-        let engulfers = self.organisms.iter().filter_map(|(_, o)| Some((o.engulfer.as_ref()?, self.outline_of(o))));
+        let engulfers =
+            self.organisms.iter().filter_map(|(id, o)| Some((id, o.engulfer.as_ref()?, self.outline_of(o))));
         let engulfers: Vec<_> = engulfers.collect();
         let prey = self.organisms.iter().filter(|(_, o)| o.prey.is_some() && !o.is_quarantined);
         let counts = |(id, prey): &(OrganismId, &Organism)| {
-            engulfers.iter().any(|(engulfer, outline)| {
+            engulfers.iter().filter(|(other, ..)| other != id).any(|(_, engulfer, outline)| {
                 let phase = engulfer.meals.iter().find(|meal| meal.prey == *id).map(|meal| meal.phase);
                 is_so(phase, outline, prey)
             })

@@ -18,7 +18,7 @@ const SLACK: f32 = 0.6;
 impl World {
     /// The furrow across `axis`, or across the longest axis, or the reason why the cell cannot divide.
     pub(super) fn plan_furrow(&self, organism: &Organism, axis: Option<Vec2>) -> Result<Furrow, Refusal> {
-        Self::refusal(organism).map_or(Ok(()), Err)?;
+        Self::refusal_of_free(organism).map_or(Ok(()), Err)?;
         let outline = self.outline_of(organism);
         let centre = centroid(&outline).ok_or(Refusal::TooSmall)?;
         let slack = (SLACK * outline.len() as f32) as u64;

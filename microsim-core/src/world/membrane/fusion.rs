@@ -35,7 +35,7 @@ impl World {
         let partner =
             |id| self.organisms.get(id).filter(|organism| organism.divider.is_some() && organism.fluid.is_some());
         let (one, other) = (partner(a).ok_or(Refusal::NoPartner)?, partner(b).ok_or(Refusal::NoPartner)?);
-        Self::refusal(one).or_else(|| Self::refusal(other)).map_or(Ok(()), Err)?;
+        Self::refusal_of_free(one).or_else(|| Self::refusal_of_free(other)).map_or(Ok(()), Err)?;
         let (Some(membrane), Some(fluid), Some(divider)) = (one.body.membrane(), one.fluid, &one.divider) else {
             return Err(Refusal::NoPartner);
         };

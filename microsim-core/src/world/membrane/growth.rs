@@ -27,12 +27,15 @@ impl World {
     /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
     ///
     /// # Errors
-    /// When the handle is stale, the organism has no membrane or is dividing, the nodes would be more than 4096 or fill more than the
+    /// When the handle is stale, the organism has no membrane, is dividing or held by another cell, the nodes would be more than 4096 or fill more than the
     /// present length of the membrane, twice as many as at rest, the membrane could not go round so much cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too
     /// many particles. Nothing is changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         if self.organisms.get(id).is_some_and(|organism| organism.furrow().is_some()) {
             return Err(Error::unsupported("organism", "an organism that is not dividing"));
+        }
+        if self.organisms.get(id).is_some_and(Organism::is_held) {
+            return Err(Error::unsupported("organism", "one that no other cell holds"));
         }
         with_default_float_environment(|| {
             self.check_nodes(id, nodes)?;
@@ -87,6 +90,7 @@ impl World {
         if asked > limit {
             return Err(Error::new(ErrorKind::TooMany { asked, limit }, "particles"));
         }
+        let held = self.organisms.get(id).map_or(Vec::new(), |organism| self.held_cells(organism));
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
         let (Some(_), Some(fluid)) = (organism.body.membrane(), organism.fluid) else {
             return Err(Error::unsupported("organism", "an organism with a membrane"));
@@ -97,8 +101,11 @@ impl World {
             insert_node(organism, &mut self.particles);
         }
         let fluid = &mut self.fluids[fluid as usize];
-        let added = inject(organism, particles, fluid.params.spacing, &mut self.particles);
+        let added = inject(organism, &held, particles, fluid.params.spacing, &mut self.particles);
         fluid.particles.extend(added);
+        if nodes > 0 {
+            self.widen_gates_for_cells(id);
+        }
         Ok(())
     }
 }
@@ -122,30 +129,36 @@ fn room(organism: &Organism, p: &Particles, spacing: f32) -> f32 {
     signed_area(&organism.outline_positions(p)) / rest_area(1, spacing)
 }
 
-/// Puts new cytoplasm near the centroid and returns its particles.
-fn inject(organism: &mut Organism, count: u32, spacing: f32, p: &mut Particles) -> Vec<u32> {
+/// Puts new cytoplasm near the centroid, but not into cells that it holds, whose outlines are `held`; returns its particles.
+fn inject(organism: &mut Organism, held: &[Vec<Vec2>], count: u32, spacing: f32, p: &mut Particles) -> Vec<u32> {
     let outline = organism.outline_positions(p);
-    let Some(centre) = injection_point(organism, &outline, p) else { return Vec::new() };
+    let is_within = |at: Vec2| contains_point(&outline, at) && !held.iter().any(|inner| contains_point(inner, at));
+    let Some(centre) = injection_point(organism, &outline, is_within, p) else { return Vec::new() };
     let Some(&first) = organism.fluid_particles.first() else { return Vec::new() };
     let like = Particle { role: Role::GrownCytoplasm as u8, ..p.get(first as usize) };
     let mut added = Vec::new();
     for k in 0..count {
         let mut around = unit_vector(k as f32 * GOLDEN_ANGLE) * (CROWDING * spacing * (k as f32 + 0.5).sqrt());
         // Both: an outline may bulge in between.
-        let has_room = |around: Vec2| [1.0, 2.0].iter().all(|&far| contains_point(&outline, centre + around * far));
+        let has_room = |around: Vec2| [1.0, 2.0].iter().all(|&far| is_within(centre + around * far));
         while !has_room(around) {
             around = if around.length_squared() > 1e-4 { around * 0.5 } else { break };
         }
-        let around = if contains_point(&outline, centre + around) { around } else { Vec2::ZERO };
+        let around = if is_within(centre + around) { around } else { Vec2::ZERO };
         added.push(p.insert(&Particle { offset: centre + around - like.origin, velocity: Vec2::ZERO, ..like }));
     }
     organism.fluid_particles.extend(&added);
     added
 }
 
-fn injection_point(organism: &Organism, outline: &[Vec2], p: &Particles) -> Option<Vec2> {
+fn injection_point(
+    organism: &Organism,
+    outline: &[Vec2],
+    is_within: impl Fn(Vec2) -> bool,
+    p: &Particles,
+) -> Option<Vec2> {
     let centroid = crate::geometry::polygon::centroid(outline)?;
-    if contains_point(outline, centroid) {
+    if is_within(centroid) {
         return Some(centroid);
     }
     let cytoplasm: Vec<Vec2> = organism.fluid_particles.iter().map(|&i| p.position(i as usize)).collect();
@@ -197,7 +210,7 @@ mod tests {
             );
         }
         let outline: Vec<_> = world.view().organism(cell).unwrap().outline().collect();
-        let added = inject(world.organisms.get_mut(cell).unwrap(), 140, 1.65, &mut world.particles);
+        let added = inject(world.organisms.get_mut(cell).unwrap(), &[], 140, 1.65, &mut world.particles);
         assert!(
             added.len() == 140 && added.iter().all(|&i| contains_point(&outline, world.particles.position(i as usize)))
         );

@@ -71,6 +71,11 @@ impl World {
     }
 
     /// The reason why a cell cannot divide or fuse now, if there is one.
+    pub(in crate::world) fn refusal_of_free(organism: &Organism) -> Option<Refusal> {
+        if organism.is_held() { Some(Refusal::Held) } else { Self::refusal(organism) }
+    }
+
+    /// The reason why the nodes of a membrane have to stay as many as they are now, if there is one.
     pub(in crate::world) fn refusal(organism: &Organism) -> Option<Refusal> {
         let ingests = |meal: &Meal| matches!(meal.phase, MealPhase::Ingesting(_));
         if organism.is_quarantined {

@@ -37,18 +37,22 @@ impl World {
         if particles as usize > most {
             return Err(out_of_range("particles", f64::from(particles), format!("at most {most}, now")));
         }
-        let mut lost = with_default_float_environment(|| {
-            organism.record_nodes_per_root(&self.fluids);
-            let lost = organism.fluid_particles.split_off(count - particles as usize);
-            organism.update_wanted_nodes(&self.fluids);
-            lost
-        });
+        with_default_float_environment(|| self.lose_cytoplasm(id, fluid, particles as usize));
+        self.changed(|| WorldChange::Shrink(id, particles));
+        Ok(())
+    }
+
+    /// Takes cytoplasm of this fluid out of a cell that has more than that, and sends its membrane on the way to fewer nodes.
+    pub(in crate::world) fn lose_cytoplasm(&mut self, id: OrganismId, fluid: u32, particles: usize) {
+        let Some(organism) = self.organisms.get_mut(id) else { return };
+        organism.record_nodes_per_root(&self.fluids);
+        let left = organism.fluid_particles.len().saturating_sub(particles);
+        let mut lost = organism.fluid_particles.split_off(left);
+        organism.update_wanted_nodes(&self.fluids);
         lost.sort_unstable();
         self.fluids[fluid as usize].particles.retain(|i| lost.binary_search(i).is_err());
         self.lose_joints(|i| lost.binary_search(&i).is_ok());
         lost.into_iter().for_each(|i| self.particles.remove(i));
-        self.changed(|| WorldChange::Shrink(id, particles));
-        Ok(())
     }
 }
 

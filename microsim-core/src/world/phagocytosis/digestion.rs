@@ -3,9 +3,10 @@
 use crate::capability::phagocytosis::{Engulfer, MealPhase};
 use crate::event::Event;
 use crate::id::OrganismId;
-use crate::organism::{Organism, at_most};
+use crate::organism::{LEAST_CYTOPLASM, Organism, at_most};
 use crate::solver::fluid::rest_area;
 use crate::world::World;
+use std::f32::consts::PI;
 
 /// Size to which digestion shrinks prey before it is removed, relative to its size when it was ingested.
 const DIGESTED_SCALE: f32 = 0.25;
@@ -30,12 +31,27 @@ impl World {
             meal.phase = MealPhase::Digesting(progress);
             let shrunk = self.present_scale(meal.prey) * (digested_scale(progress) / digested_scale(before));
             self.scale_body(meal.prey, shrunk);
+            self.dissolve_cell(meal.prey, progress);
             if progress >= 1.0 {
                 eaten += self.consume(id, meal.prey);
             }
         }
         engulfer.meals.retain(|meal| !matches!(meal.phase, MealPhase::Digesting(progress) if progress >= 1.0));
         engulfer.pending_growth = at_most(engulfer.pending_growth + eaten * params.growth_yield);
+    }
+
+    /// Takes cytoplasm out of a cell that is digested, so that its area shrinks as that of a body does.
+    fn dissolve_cell(&mut self, prey: OrganismId, progress: f32) {
+        let Some(cell) = self.organisms.get(prey) else { return };
+        let (Some(membrane), Some(fluid)) = (cell.body.membrane(), cell.fluid) else { return };
+        let each = rest_area(1, self.fluids[fluid as usize].params.spacing);
+        let radius = (cell.spawn_area / PI).sqrt() - membrane.rim - membrane.node_radius;
+        let scale = digested_scale(progress);
+        let left = (PI * radius * radius / each * (scale * scale) + 0.5) as usize;
+        let surplus = cell.fluid_particles.len().saturating_sub(left.max(LEAST_CYTOPLASM));
+        if surplus > 0 {
+            self.lose_cytoplasm(prey, fluid, surplus);
+        }
     }
 
     /// Removes digested prey and returns its area.

@@ -2,7 +2,7 @@
 
 use crate::behavior::crawl::front_and_rear::{MembraneRegion, region};
 use crate::behavior::heading;
-use crate::capability::phagocytosis::Encounter;
+use crate::capability::phagocytosis::{Encounter, IngestionWay};
 use crate::id::OrganismId;
 use crate::organism::Organism;
 use crate::world::World;
@@ -18,6 +18,17 @@ const TOUCH_GAP: f32 = 0.5;
 #[derive(Debug, Default)]
 pub(super) struct NearPrey(Vec<(u32, Near)>);
 
+/// An engulfer as its prey meets it.
+#[derive(Clone, Copy)]
+struct Seeker {
+    way: IngestionWay,
+    at: Vec2,
+    /// Unit vector; none at rest.
+    to_goal: Option<Vec2>,
+    /// Of its cytoplasm, square units.
+    area: f32,
+}
+
 impl NearPrey {
     fn of(&self, engulfer: OrganismId) -> impl Iterator<Item = Near> {
         let first = self.0.partition_point(|(owner, _)| *owner < engulfer.index);
@@ -32,8 +43,10 @@ impl World {
         let mut found = Vec::new();
         for (owners, near) in self.near_of_others() {
             for [engulfer, prey] in [owners, [owners[1], owners[0]]] {
-                let may_eat = organism(engulfer).is_some_and(|organism| organism.engulfer.is_some());
-                if may_eat && organism(prey).is_some_and(|organism| organism.prey.is_some()) {
+                let eats = organism(engulfer).and_then(|organism| organism.engulfer.as_ref());
+                let eats_cells = eats.is_some_and(|eats| eats.params.way == IngestionWay::WideGate);
+                let is_prey = |organism: &Organism| organism.prey.is_some() || (eats_cells && organism.is_cell());
+                if eats.is_some() && organism(prey).is_some_and(is_prey) {
                     found.push((engulfer, near));
                 }
             }
@@ -43,7 +56,7 @@ impl World {
     }
 
     /// The prey that touches the front of an engulfer in this step.
-    pub(super) fn encounters(&self, id: OrganismId, near_prey: &NearPrey) -> Vec<Encounter> {
+    pub(super) fn encounters(&self, id: OrganismId, way: IngestionWay, near_prey: &NearPrey) -> Vec<Encounter> {
         let Some(organism) = self.organisms.get(id) else { return Vec::new() };
         let front = front_nodes(organism);
         let mut touched: Vec<OrganismId> = Vec::new();
@@ -58,11 +71,11 @@ impl World {
             touched.extend(owner.filter(|&other| other != id && !self.exemptions.contains(id.index, other.index)));
         }
         touched.sort_unstable();
-        let Some(centre) = self.centroid(id) else { return Vec::new() };
-        let to_goal = organism.goal.map(|goal| heading(goal - centre));
-        let area = self.engulfer_area(organism);
+        let Some(at) = self.centroid(id) else { return Vec::new() };
+        let to_goal = organism.goal.map(|goal| heading(goal - at));
+        let seeker = Seeker { way, at, to_goal, area: self.engulfer_area(organism) };
         let groups = touched.chunk_by(|a, b| a == b);
-        groups.filter_map(|group| self.encounter(group[0], group.len() as u32, centre, to_goal, area)).collect()
+        groups.filter_map(|group| self.encounter(group[0], group.len() as u32, seeker)).collect()
     }
 
     /// Whether two discs touched in any substep of this step or are close now: contacts of soft bodies come and go from
@@ -71,19 +84,13 @@ impl World {
         pair.touched || pair.gap < TOUCH_GAP * self.particles.smaller_radius(pair.i, pair.j)
     }
 
-    fn encounter(
-        &self,
-        id: OrganismId,
-        contacts: u32,
-        from: Vec2,
-        to_goal: Option<Vec2>,
-        area: f32,
-    ) -> Option<Encounter> {
-        let organism = self.organisms.get(id)?;
-        let prey = organism.prey.filter(|prey| prey.held_by.is_none() && !organism.is_quarantined)?;
-        let to_prey = heading(self.centroid(id)? - from);
-        let heading = to_goal.map(|to_goal| to_goal.dot(to_prey));
-        Some(Encounter { prey: id, class: prey.class, contacts, heading, size_ratio: area / organism.full_area() })
+    fn encounter(&self, id: OrganismId, contacts: u32, seeker: Seeker) -> Option<Encounter> {
+        let prey = self.organisms.get(id)?;
+        let class = prey.class_for(seeker.way)?;
+        let to_prey = heading(self.centroid(id)? - seeker.at);
+        let heading = seeker.to_goal.map(|to_goal| to_goal.dot(to_prey));
+        let area = prey.cell_area(&self.fluids).unwrap_or(prey.full_area());
+        Some(Encounter { prey: id, class, contacts, heading, size_ratio: seeker.area / area })
     }
 
     /// Sum of the areas of the cytoplasm particles (thesis, 3.3.1).

@@ -3,18 +3,23 @@
 use crate::capability::phagocytosis::{Meal, PhagocytosisParams};
 use crate::geometry::{polygon::contains_point, segment::nearest_on_segment};
 use crate::id::OrganismId;
+use crate::organism::Organism;
 use crate::solver::contact::shift;
 use crate::world::World;
 use glam::Vec2;
 
 /// Overlap with the membrane up to which prey counts as inside, as a share of a node's radius.
 const OVERLAP: f32 = 0.25;
+/// Share of the distance at which prey counts as inside at which a cell counts as outside: so far from the membrane its own does not
+/// slip to the other side when the gate closes.
+const OUTSIDE: f32 = 0.5;
 /// Time after which prey that is still between both sides is moved to one of them, in time limits.
 const PLACED_AFTER: f32 = 2.0;
 
 impl World {
     /// Widens the gate to the nodes near the prey and returns the prey's side. At the time limit prey whose centre is outside
-    /// is expelled; at twice the time limit all of the prey is moved to the side of its centre.
+    /// is expelled; at twice the time limit all of the prey is moved to the side of its centre. A cell, whose content would not stay
+    /// in its membrane, is not moved, but drawn in or driven out as at the time limit, from one time limit to the next.
     pub(super) fn advance_gate(
         &mut self,
         id: OrganismId,
@@ -28,6 +33,13 @@ impl World {
         let clearance = organism.body.membrane().map_or(0.0, |membrane| membrane.node_radius) * (1.0 - OVERLAP);
         let side = self.side_of_prey(meal.prey, &outline, clearance);
         if side != PreySide::Between || elapsed < params.time_limit {
+            return side;
+        }
+        if self.organisms.get(meal.prey).is_some_and(Organism::is_cell) {
+            if is_time(elapsed, self.config.dt, params.time_limit) {
+                let centre = self.centroid(meal.prey);
+                meal.is_expelled = centre.is_some_and(|centre| !contains_point(&outline, centre));
+            }
             return side;
         }
         if !meal.is_expelled && elapsed - self.config.dt < params.time_limit {
@@ -71,15 +83,34 @@ impl World {
         meal.gate.extend(nodes);
     }
 
+    /// Adds new nodes to the gates of an engulfer that cells pass. Without, they would be in a gate only a step later, and be
+    /// driven out of the cell that has the gate's other nodes in it.
+    pub(in crate::world) fn widen_gates_for_cells(&mut self, id: OrganismId) {
+        let is_cell = |meal: &Meal| self.organisms.get(meal.prey).is_some_and(Organism::is_cell);
+        let is_passed = |meal: &Meal| meal.is_in_gate() && is_cell(meal);
+        if !self.organisms.get(id).is_some_and(|organism| organism.meals().iter().any(is_passed)) {
+            return;
+        }
+        let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|organism| organism.engulfer.take()) else {
+            return;
+        };
+        engulfer.meals.iter_mut().filter(|meal| meal.is_in_gate()).for_each(|meal| self.widen_gate(id, meal));
+        if let Some(organism) = self.organisms.get_mut(id) {
+            organism.engulfer = Some(engulfer);
+        }
+    }
+
     /// Side of an outline on which all discs of prey lie. The inner surface is `clearance` inside the outline.
     fn side_of_prey(&self, prey: OrganismId, outline: &[Vec2], clearance: f32) -> PreySide {
-        let (mut inside, mut outside) = (self.organisms.get(prey).is_some(), true);
-        for i in self.discs_of(prey) {
+        let Some(prey) = self.organisms.get(prey) else { return PreySide::Outside };
+        let (mut inside, mut outside) = (true, !prey.is_cell() || self.is_clear_of(prey, outline));
+        for i in surface_of(prey).filter(|&i| self.particles.inv_mass[i] > 0.0) {
             let position = self.particles.position(i);
             let is_within = contains_point(outline, position);
-            inside &= is_within
-                && (nearest_edge(outline, position).0 - position).length() >= self.particles.radius[i] + clearance;
-            outside &= !is_within;
+            let distance = || (nearest_edge(outline, position).0 - position).length();
+            let needed = self.particles.radius[i] + clearance;
+            inside &= is_within && distance() >= needed;
+            outside &= !is_within && (!prey.is_cell() || distance() >= OUTSIDE * needed);
         }
         match (inside, outside) {
             (true, _) => PreySide::Inside,
@@ -87,6 +118,24 @@ impl World {
             _ => PreySide::Between,
         }
     }
+
+    /// Whether no corner of an outline lies within a cell: nodes of a gate may be there while all nodes of the cell are outside.
+    fn is_clear_of(&self, cell: &Organism, outline: &[Vec2]) -> bool {
+        let ring = self.outline_of(cell);
+        !outline.iter().any(|&node| contains_point(&ring, node))
+    }
+}
+
+/// Discs by which prey touches others: of a cell those of its membrane, which holds all others.
+fn surface_of(prey: &Organism) -> impl Iterator<Item = usize> + '_ {
+    let ring = prey.is_cell().then(|| prey.outline_particles());
+    let discs = (!prey.is_cell()).then(|| prey.particles());
+    ring.into_iter().flatten().chain(discs.into_iter().flatten()).map(|i| i as usize)
+}
+
+/// Whether a time that has just grown by `dt` has passed a multiple of the time limit.
+fn is_time(elapsed: f32, dt: f32, limit: f32) -> bool {
+    (elapsed / limit) as u32 != ((elapsed - dt) / limit) as u32
 }
 
 /// Side of a membrane on which prey lies.

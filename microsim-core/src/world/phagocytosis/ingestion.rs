@@ -30,14 +30,15 @@ const GATE_SHARE: f32 = 0.25;
 impl World {
     /// Opens a gate for prey, or prepares the membrane for a cup.
     pub(super) fn begin_ingestion(&mut self, id: OrganismId, meal: &mut Meal, params: &PhagocytosisParams) {
-        if !self.can_form_cup(id, meal, params) {
+        if meal.way == IngestionWay::Cup && !self.can_form_cup(id, meal, params) {
             meal.way = IngestionWay::Gate;
         }
         let area = self.area_of(meal.prey);
+        self.prepare_cell(meal.prey, area);
         let Self { organisms, fluids, exemptions, .. } = self;
         let Some(organism) = organisms.get_mut(id) else { return };
         match meal.way {
-            IngestionWay::Gate => {
+            IngestionWay::Gate | IngestionWay::WideGate => {
                 meal.gate = front_nodes(organism);
                 exemptions.open_gate(&meal.gate, meal.prey.index);
                 if is_stretched(organism, area, fluids) {
@@ -48,6 +49,16 @@ impl World {
         }
         self.set_held_by(meal.prey, Some(id));
         self.events.push(Event::IngestionBegan { engulfer: id, prey: meal.prey });
+    }
+
+    /// Lets a cell that is about to be held forget what it was about to take in, and notes its area.
+    fn prepare_cell(&mut self, prey: OrganismId, area: f32) {
+        if let Some(cell) = self.organisms.get_mut(prey).filter(|prey| prey.is_cell()) {
+            cell.spawn_area = area;
+            if let Some(engulfer) = &mut cell.engulfer {
+                engulfer.meals.clear();
+            }
+        }
     }
 
     /// Whether a fold of the membrane can hold the prey: in this substep, with so many nodes, and of this size.
@@ -63,11 +74,10 @@ impl World {
 
     /// Puts a node into a membrane that goes round prey in a gate only if its links are stretched.
     pub(super) fn lengthen_gate(&mut self, id: OrganismId, engulfer: &Engulfer) {
-        let is_open = |meal: &Meal| meal.way == IngestionWay::Gate && matches!(meal.phase, MealPhase::Ingesting(_));
         let has_room = (self.particles.live_count() as u64) < u64::from(self.config.max_particles);
         let Self { organisms, fluids, particles, .. } = self;
         let Some(organism) = organisms.get_mut(id).filter(|_| has_room) else { return };
-        if engulfer.meals.iter().any(is_open) && is_stretched(organism, engulfer.held_area, fluids) {
+        if engulfer.meals.iter().any(Meal::is_in_gate) && is_stretched(organism, engulfer.held_area, fluids) {
             insert_node(organism, particles);
         }
     }
@@ -88,7 +98,7 @@ impl World {
                 self.scale_body(meal.prey, if scale < present { scale } else { present });
             }
             let side = match meal.way {
-                IngestionWay::Gate => self.advance_gate(id, meal, &params, elapsed),
+                IngestionWay::Gate | IngestionWay::WideGate => self.advance_gate(id, meal, &params, elapsed),
                 IngestionWay::Cup if self.advance_cup(id, meal.prey, &params) => PreySide::Inside,
                 IngestionWay::Cup => PreySide::Outside,
             };
@@ -126,7 +136,7 @@ fn is_stretched(organism: &Organism, held_area: f32, fluids: &[Fluid]) -> bool {
 
 /// Lets prey in through a gate that a cup has not enclosed by then; returns the time since its ingestion began, as the way counts it.
 fn replace_late_cup(meal: &mut Meal, elapsed: f32, time_limit: f32) -> f32 {
-    if meal.way == IngestionWay::Gate || elapsed < CUP_SHARE * time_limit {
+    if meal.way != IngestionWay::Cup || elapsed < CUP_SHARE * time_limit {
         return elapsed;
     }
     meal.way = IngestionWay::Gate;

@@ -29,9 +29,12 @@ impl World {
             .collect();
         let near_prey = if engulfers.is_empty() { NearPrey::default() } else { self.near_prey() };
         for id in engulfers {
-            let Some(mut engulfer) = self.organisms.get_mut(id).and_then(|o| o.engulfer.take()) else { continue };
+            // A cell that is held, perhaps only now, takes nothing in.
+            let free = self.organisms.get_mut(id).filter(|organism| !organism.is_held());
+            let Some(mut engulfer) = free.and_then(|organism| organism.engulfer.take()) else { continue };
             self.remove_lost_meals(&mut engulfer);
-            for k in engulfer.advance_touching(&self.encounters(id, &near_prey), self.config.dt) {
+            let encounters = self.encounters(id, engulfer.params.way, &near_prey);
+            for k in engulfer.advance_touching(&encounters, self.config.dt) {
                 self.begin_ingestion(id, &mut engulfer.meals[k], &engulfer.params);
             }
             (0..self.membrane_changes()).for_each(|_| self.lengthen_gate(id, &engulfer));

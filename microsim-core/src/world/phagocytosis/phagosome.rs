@@ -49,7 +49,7 @@ impl World {
         let area = |meal: &Meal| {
             let area = self.area_of(meal.prey);
             let radius = (area / PI).sqrt() + 2.0 * node_radius;
-            if meal.way == IngestionWay::Gate { area } else { PI * radius * radius }
+            if meal.way == IngestionWay::Cup { PI * radius * radius } else { area }
         };
         at_most(engulfer.meals.iter().filter(takes_room).map(area).sum())
     }

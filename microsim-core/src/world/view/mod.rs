@@ -96,7 +96,8 @@ impl<'a> OrganismView<'a> {
         self.organism.kind
     }
 
-    /// Area that it had when it was spawned, square units: of its ellipse or disc, or within its outline.
+    /// Area that it had when it was spawned, square units: of its ellipse or disc, or within its outline. Of an amoeboid cell that
+    /// another one has taken in: that which it had then.
     #[must_use]
     pub fn spawn_area(self) -> f32 {
         self.organism.spawn_area
@@ -225,7 +226,7 @@ impl<'a> OrganismView<'a> {
         self.view.world.engulfer_area(self.organism)
     }
 
-    /// What it is as prey; `None` for what is not taken in.
+    /// What it is as prey; `None` for what is not taken in, and for an amoeboid cell that no other one holds.
     #[must_use]
     pub fn prey_class(self) -> Option<PreyClass> {
         self.organism.prey.map(|prey| prey.class)

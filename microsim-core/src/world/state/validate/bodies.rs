@@ -1,6 +1,6 @@
 //! Single organisms: particles, membranes, cytoplasm and state.
 
-use super::{Check, Subject};
+use super::{Check, Subject, Violation};
 use crate::geometry::polygon::{contains_point, is_simple, signed_area};
 use crate::organism::{Organism, Storage};
 use crate::particle::NO_OWNER;
@@ -83,9 +83,16 @@ fn check_fluid(world: &World, organism: &Organism, cell: Subject) -> Check {
     if organism.body.membrane().is_none() || !world.config.protects_membranes {
         return Ok(());
     }
-    let outline = world.outline_of(organism);
+    let (outline, held) = (world.outline_of(organism), world.held_cells(organism));
     let leak = own.iter().find(|&&i| !contains_point(&outline, p.position(i as usize)));
-    leak.map_or(Ok(()), |&i| Err(Subject { particle: Some(i), ..cell }.violation("it has leaked out of its membrane")))
+    leak.map_or(Ok(()), |&i| Err(in_cell(i, cell, "it has leaked out of its membrane")))?;
+    let is_in_prey = |i: u32| held.iter().any(|inner| contains_point(inner, p.position(i as usize)));
+    let lost = own.iter().find(|&&i| is_in_prey(i));
+    lost.map_or(Ok(()), |&i| Err(in_cell(i, cell, "it has leaked into a cell that its own holds")))
+}
+
+fn in_cell(particle: u32, cell: Subject, what: &str) -> Violation {
+    Subject { particle: Some(particle), ..cell }.violation(what)
 }
 
 /// A furrow is between two nodes of the membrane.

@@ -1,7 +1,7 @@
 //! Relations of organisms: meals, holders, gates, exempt pairs, touching pairs.
 
 use super::{Check, Subject};
-use crate::capability::phagocytosis::{Engulfer, IngestionWay, Meal, MealPhase, PreyClass};
+use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, PreyClass};
 use crate::geometry::polygon::contains_point;
 use crate::id::OrganismId;
 use crate::organism::Organism;
@@ -44,14 +44,16 @@ fn check_engulfer(world: &World, id: OrganismId, organism: &Organism, engulfer: 
 
 fn check_gate(meal: &Meal, cell: Subject) -> Check {
     let prey = meal.prey.index;
-    let has_gate = meal.way == IngestionWay::Gate && matches!(meal.phase, MealPhase::Ingesting(_));
-    cell.must(has_gate || meal.gate.is_empty(), || format!("a gate for prey {prey} that does not pass one"))
+    cell.must(meal.is_in_gate() || meal.gate.is_empty(), || format!("a gate for prey {prey} that does not pass one"))
 }
 
 /// Prey names its holder, and lies inside if its meal is.
 fn check_meal(world: &World, id: OrganismId, organism: &Organism, meal: &Meal, cell: Subject) -> Check {
     let Some(prey) = world.organisms.get(meal.prey) else { return Ok(()) };
     let index = meal.prey.index;
+    if prey.is_cell() && matches!(meal.phase, MealPhase::Touching(_)) {
+        return Ok(());
+    }
     let Some(state) = prey.prey else {
         return Err(cell.violation(format!("its prey {index} cannot be taken in")));
     };
@@ -68,12 +70,28 @@ fn check_meal(world: &World, id: OrganismId, organism: &Organism, meal: &Meal, c
         let is_inside = contains_point(&world.outline_of(organism), world.centre_of(prey));
         cell.must(is_inside, || format!("its prey {index} is no longer inside"))?;
     }
+    if meal.phase.is_inside() && prey.is_cell() && world.config.protects_membranes {
+        check_held_cell(world, organism, prey, cell)?;
+    }
     Ok(())
+}
+
+/// A cell that another one holds lies wholly inside it.
+fn check_held_cell(world: &World, holder: &Organism, held: &Organism, cell: Subject) -> Check {
+    let outline = world.outline_of(holder);
+    let is_out = |&i: &u32| !contains_point(&outline, world.particles.position(i as usize));
+    let out = held.particles().filter(is_out).count();
+    cell.must(out == 0, || format!("{out} particles of a cell that it holds are outside"))
 }
 
 /// Held prey is a meal of its holder.
 fn check_held(world: &World, id: OrganismId, organism: &Organism, cell: Subject) -> Check {
-    let Some(holder) = organism.prey.and_then(|prey| prey.held_by) else { return Ok(()) };
+    let Some(holder) = organism.prey.and_then(|prey| prey.held_by) else {
+        return cell
+            .must(organism.prey.is_none() || !organism.is_cell(), || "it is prey, and nobody holds it".to_owned());
+    };
+    cell.must(!organism.is_cell() || organism.meals().is_empty(), || "it is held and holds prey".to_owned())?;
+    cell.must(organism.furrow().is_none(), || "it is held and divides".to_owned())?;
     let engulfer = world.organisms.get(holder).and_then(|holder| holder.engulfer.as_ref());
     let meal = engulfer.and_then(|engulfer| engulfer.meals.iter().find(|meal| meal.prey == id));
     let is_held = meal.is_some_and(|meal| !matches!(meal.phase, MealPhase::Touching(_)));

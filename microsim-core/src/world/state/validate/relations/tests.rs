@@ -1,7 +1,7 @@
 //! Each kind of damage to meals in every phase is found, and named.
 
-use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, PreyClass};
-use crate::organism::Organism;
+use crate::capability::phagocytosis::{Engulfer, Meal, MealPhase, Prey, PreyClass};
+use crate::organism::{Organism, Storage};
 use crate::{
     AgarSpec, AmoeboidCellSpec, IngestionWay, Inputs, Intent, OrganismId, OrganismSpec, PhagocytosisParams, Placement,
     RigidCellSpec, World, WorldConfig, glam::Vec2,
@@ -61,6 +61,14 @@ fn two_inside() -> World {
     let at = [-4.0, 4.0].map(|y| AHEAD + Vec2::new(0.0, y));
     let are_inside = |meals: &[Meal]| meals.iter().filter(|meal| meal.phase.is_inside()).count() == 2;
     dinner(IngestionWay::Cup, &small.into(), at, are_inside)
+}
+
+/// A cell is in a wide gate, half of it inside; another is free.
+fn cell_at_the_gate() -> World {
+    let prey = AmoeboidCellSpec { radii: Vec2::splat(5.0), ..AmoeboidCellSpec::default() };
+    let is_half_in =
+        |meals: &[Meal]| meals.iter().any(|meal| matches!(meal.phase, MealPhase::Ingesting(time) if time > 0.7));
+    dinner(IngestionWay::WideGate, &prey.into(), [AHEAD + Vec2::new(4.0, 0.0), AWAY], is_half_in)
 }
 
 fn organism(world: &mut World, id: OrganismId) -> &mut Organism {
@@ -161,6 +169,47 @@ fn damage_to_gates_is_found() {
         },
         "gates open for [], asked for",
     );
+}
+
+#[test]
+fn damage_to_cells_that_cells_hold_is_found() {
+    let world = cell_at_the_gate();
+    finds(&world, |w| organism(w, PREY).prey = None, "its prey 1 cannot be taken in");
+    let is_free = Some(Prey { class: PreyClass::Soft, held_by: None });
+    finds(&world, |w| organism(w, OTHER).prey = is_free, "it is prey, and nobody holds it");
+    let eats = |w: &mut World| {
+        let (phase, gate) = (MealPhase::Touching(0.0), Vec::new());
+        let other = Meal { prey: OTHER, phase, gate, ..meal(w).clone() };
+        organism(w, PREY).engulfer.as_mut().unwrap().meals.push(other);
+    };
+    finds(&world, eats, "it is held and holds prey");
+    let sinks = |w: &mut World| {
+        let at = w.centroid(PREY).unwrap();
+        let disc = organism(w, CELL).fluid_particles[0] as usize;
+        let by = at - w.particles.position(disc);
+        (w.particles.x[disc], w.particles.y[disc]) = (w.particles.x[disc] + by.x, w.particles.y[disc] + by.y);
+    };
+    let words = "it has leaked into a cell that its own holds";
+    // It may be outside its own membrane there.
+    let mut inside = world.clone();
+    sinks(&mut inside);
+    let found = inside.validate().unwrap_err().to_string();
+    assert!(found.contains(words) || found.contains("it has leaked out of its membrane"), "{found}");
+    assert_eq!((world.census().leaks, inside.census().leaks), (0, 1));
+    let is_taken_for_inside = |w: &mut World| {
+        let gate = std::mem::take(&mut meal(w).gate);
+        w.exemptions.close_gate(&gate, PREY.index);
+        meal(w).phase = MealPhase::Ingested;
+        // The first node, which stands for its place, is the innermost one.
+        let nodes = organism(w, PREY).outline.clone();
+        let x = |node: &u32| w.particles.position(*node as usize).x;
+        let innermost = nodes.iter().copied().min_by(|a, b| x(a).total_cmp(&x(b))).unwrap();
+        if let Storage::Loose { particles, .. } = &mut organism(w, PREY).body {
+            let place = particles.iter().position(|&node| node == innermost).unwrap();
+            particles.rotate_left(place);
+        }
+    };
+    finds(&world, is_taken_for_inside, "particles of a cell that it holds are outside");
 }
 
 #[test]
