@@ -7,19 +7,22 @@
 //! The discs of sleepers are hardly ever asked for, so only their boxes are made.
 
 mod across;
+mod disc_list;
+mod pair_filter;
 
+use super::Contact;
 use super::aabb::{Aabb, LaneBoxes};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid};
-use super::exemptions::Exemptions;
 use super::images::Images;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
-use super::{Contact, Mobility};
 use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
+use disc_list::DiscList;
 use glam::Vec2;
+pub(super) use pair_filter::PairFilter;
 use std::ops::Range;
 
 /// Rows of cells that are searched at a time, a fixed number whatever the number of threads.
@@ -55,16 +58,6 @@ struct SizeClass {
     grid: UniformGrid,
     /// The largest width or height.
     extent: f32,
-}
-
-/// Which pairs of bodies, and of their discs, collide.
-#[derive(Clone, Copy)]
-pub(super) struct PairFilter<'a> {
-    pub particles: &'a Particles,
-    pub exemptions: &'a Exemptions,
-    pub sleep: &'a Sleep,
-    /// Largest displacement of a particle in a substep, units.
-    pub longest: f32,
 }
 
 /// Some of the blocks, and the part of a list with an entry for each or for each of their particles.
@@ -193,7 +186,7 @@ impl Bodies {
     /// Adds the contacts of discs that may touch within the speculative margins: of small bodies to the lists, strip by strip of
     /// rows, of large ones to the others.
     pub(super) fn pairs(&self, filter: PairFilter<'_>, strips: &mut Vec<Vec<Contact>>, others: &mut Vec<Contact>) {
-        let between = |a: &BodyProxy, b: &BodyProxy, near: &mut Vec<Disc>, found: &mut Vec<Contact>| {
+        let between = |a: &BodyProxy, b: &BodyProxy, near: &mut DiscList, found: &mut Vec<Contact>| {
             let slack = a.slack + b.slack;
             if a.aabb.shrunk(slack).overlaps(b.aabb)
                 && let Some(mobility) = filter.mobility(a, b)
@@ -204,14 +197,14 @@ impl Bodies {
             }
         };
         let within = |class: &SizeClass, rows: Range<usize>, found: &mut Vec<Contact>| {
-            let mut near = Vec::new();
+            let mut near = DiscList::default();
             class.grid.pairs(rows, |a, b| between(&class.bodies[a], &class.bodies[b], &mut near, found));
         };
         let rows = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP);
         strips.resize_with(rows.len(), Vec::new);
         parallel::for_each(rows.zip(strips).collect(), |(rows, found)| within(&self.small, rows, found));
         within(&self.large, 0..self.large.grid.rows(), others);
-        let mut near = Vec::new();
+        let mut near = DiscList::default();
         for body in &self.large.bodies {
             for other in self.small.overlapping(body.aabb) {
                 between(body, other, &mut near, others);
@@ -229,7 +222,7 @@ impl Bodies {
         images: Option<&Images>,
         found: &mut Vec<Contact>,
     ) {
-        let mut near = Vec::new();
+        let mut near = DiscList::default();
         for body in self.iter().filter(|body| body.block != NO_BLOCK) {
             if margins.remaining(body.block, body.lane) >= next {
                 continue;
@@ -257,7 +250,7 @@ impl Bodies {
         [a, b]: [&BodyProxy; 2],
         particles: &Particles,
         slack: f32,
-        near: &mut Vec<Disc>,
+        near: &mut DiscList,
         mut visit: impl FnMut(&Disc, &Disc),
     ) {
         near.clear();
@@ -266,7 +259,7 @@ impl Bodies {
             return;
         }
         self.for_each_disc_in(a, b.aabb.shrunk(slack), particles, |disc| {
-            near.iter().filter(|other| disc.is_within(other, slack)).for_each(|other| visit(disc, other));
+            near.for_each_within(disc, slack, |other| visit(disc, other));
         });
     }
 
@@ -356,27 +349,6 @@ fn boxes_of(block: &BlockRange, columns: DiscColumns<'_>, displacement: f32) -> 
         columns.add_to_boxes(block.entry(slot, 0), displacement, &mut boxes);
     }
     boxes
-}
-
-impl PairFilter<'_> {
-    /// How two bodies give way, if they collide at all.
-    fn mobility(self, a: &BodyProxy, b: &BodyProxy) -> Option<[Mobility; 2]> {
-        let mobility = [a, b].map(|body| match body.is_linked {
-            _ if self.sleep.is_asleep(body.block) => Mobility::Asleep,
-            true => Mobility::Linked,
-            false => Mobility::Single,
-        });
-        let sleep = mobility == [Mobility::Asleep; 2];
-        let collide = !sleep && a.owner != b.owner && !self.exemptions.contains(a.owner, b.owner);
-        collide.then_some(mobility)
-    }
-
-    /// The contact of a disc of one with a disc of the other, if they collide; neither is in fluid or a ring.
-    fn contact(self, a: &Disc, b: &Disc, mobility: [Mobility; 2]) -> Option<Contact> {
-        let (p, i, j) = (self.particles, a.index as usize, b.index as usize);
-        let collide = p.inv_mass[i] + p.inv_mass[j] > 0.0 && p.groups[i].meets(p.groups[j]);
-        collide.then(|| Contact::new(p, i, j, mobility, self.longest))
-    }
 }
 
 impl SpeculativeMargins {

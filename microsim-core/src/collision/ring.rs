@@ -7,6 +7,7 @@ use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
 use super::link_group::LinkGroup;
 use crate::instruction_set::Dispatch;
+use crate::parallel;
 use crate::particle::{LANES, Particles};
 use std::ops::Range;
 
@@ -105,12 +106,20 @@ pub(crate) struct RingContacts {
     /// Those of a ring lie side by side.
     pub contacts: Vec<RingContact>,
     pub found: FoundLinks,
-    /// Scratch of the search: links of a ring, discs in its box, and which of these are near which links.
+    /// The ring that each particle is a node of, by particle.
+    ring_of: Vec<u32>,
+    searches: Vec<Search>,
+}
+
+/// The search near some of the rings: what it found, as [`RingContacts`] has it for all, and scratch.
+#[derive(Clone, Debug, Default)]
+struct Search {
+    contacts: Vec<RingContact>,
+    links: Vec<FoundLink>,
+    /// Links of a ring, discs in its box, and which of these are near which links.
     groups: Vec<LinkGroup>,
     discs: Vec<Disc>,
     hits: Vec<Hit>,
-    /// The ring that each particle is a node of, by particle.
-    ring_of: Vec<u32>,
 }
 
 /// The links near discs, and the rings that they are of.
@@ -142,6 +151,8 @@ impl FoundLinks {
     }
 }
 
+/// Rings near which discs are searched at a time, a fixed number whatever the number of threads.
+const PORTION: usize = 8;
 /// In no ring.
 const NO_RING: u32 = u32::MAX;
 
@@ -168,18 +179,49 @@ impl RingContacts {
 
     /// Finds the discs near some rings.
     pub(super) fn find(&mut self, rings: &[Ring<'_>], near: RingQuery<'_>) {
-        self.contacts.clear();
-        self.found.clear();
         self.note_nodes(rings, near.particles.len());
+        let Self { contacts, found, ring_of, searches } = self;
+        contacts.clear();
+        found.clear();
+        searches.resize_with(rings.len().div_ceil(PORTION), Search::default);
+        let portions = rings.chunks(PORTION).zip(&mut *searches).zip((0..).step_by(PORTION)).collect();
+        parallel::for_each(portions, |((rings, search), first): ((&[Ring<'_>], &mut Search), usize)| {
+            search.find(rings, first, ring_of, near);
+        });
+        for search in searches {
+            let first = found.links.len() as u32;
+            found.links.append(&mut search.links);
+            let moved = |links: Range<u32>| links.start + first..links.end + first;
+            contacts
+                .extend(search.contacts.drain(..).map(|one| RingContact { links: moved(one.links.clone()), ..one }));
+        }
+        for ring in rings {
+            found.nodes.extend_from_slice(ring.nodes);
+            found.ends.push(found.nodes.len());
+        }
+    }
+
+    fn note_nodes(&mut self, rings: &[Ring<'_>], particles: usize) {
+        self.ring_of.clear();
+        self.ring_of.resize(if rings.is_empty() { 0 } else { particles }, NO_RING);
         for (ring, k) in rings.iter().zip(0..) {
-            self.find_near(*ring, k, near);
-            self.add_contacts(*ring, k as usize, near);
+            ring.nodes.iter().for_each(|&node| self.ring_of[node as usize] = k);
+        }
+    }
+}
+
+impl Search {
+    /// Finds the discs near rings, of which the first one is in this place.
+    fn find(&mut self, rings: &[Ring<'_>], first: usize, ring_of: &[u32], near: RingQuery<'_>) {
+        for (ring, place) in rings.iter().zip(first..) {
+            self.find_near(*ring, place as u32, ring_of, near);
+            self.add_contacts(*ring, place, near);
         }
     }
 
     /// Finds the links of one ring that each disc is near to.
-    fn find_near(&mut self, ring: Ring<'_>, place: u32, near: RingQuery<'_>) {
-        let Self { groups, discs, hits, ring_of, .. } = self;
+    fn find_near(&mut self, ring: Ring<'_>, place: u32, ring_of: &[u32], near: RingQuery<'_>) {
+        let Self { groups, discs, hits, .. } = self;
         let p = near.particles;
         let link = |k: usize| {
             let Link { a, b } = ring.link(k);
@@ -210,20 +252,10 @@ impl RingContacts {
         hits.sort_unstable_by_key(|hit| (hit.particle, hit.first));
     }
 
-    fn note_nodes(&mut self, rings: &[Ring<'_>], particles: usize) {
-        self.ring_of.clear();
-        self.ring_of.resize(if rings.is_empty() { 0 } else { particles }, NO_RING);
-        for (ring, k) in rings.iter().zip(0..) {
-            ring.nodes.iter().for_each(|&node| self.ring_of[node as usize] = k);
-        }
-    }
-
     /// Turns what was found near one ring into one contact for each disc that may touch it.
     fn add_contacts(&mut self, ring: Ring<'_>, place: usize, near: RingQuery<'_>) {
         let p = near.particles;
-        let Self { contacts, found: FoundLinks { links, nodes, ends }, hits, .. } = self;
-        nodes.extend_from_slice(ring.nodes);
-        ends.push(nodes.len());
+        let Self { contacts, links, hits, .. } = self;
         for hits in hits.chunk_by(|a, b| a.particle == b.particle) {
             let (particle, first) = (hits[0].particle, links.len() as u32);
             let (i, node) = (particle as usize, ring.nodes[0] as usize);

@@ -28,6 +28,8 @@ pub(crate) use settle::settle;
 
 /// Groups that are worked on at a time, a fixed number whatever the number of threads.
 const PORTION: usize = 64;
+/// Fluids that are worked on at a time, likewise: most are those of cells, and small.
+const FLUIDS: usize = 4;
 
 /// How the particles of a fluid keep apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -107,17 +109,22 @@ pub(crate) struct Workspace {
     rest_density: f32,
     /// Of each fluid, found once per step.
     sorted: Vec<Sorted>,
+    /// Of each portion of fluids.
+    scratch: Vec<Scratch>,
+}
+
+/// What the projection of one fluid finds.
+#[derive(Debug, Default)]
+struct Scratch {
     /// Of each group's members from each of its candidates.
     distances: Vec<Lanes>,
     /// Of each group.
     sums: Vec<Sums>,
-    shifts: Vec<[Lanes; 2]>,
 }
 
 impl Default for Workspace {
     fn default() -> Self {
-        let rest_density = density::lattice_density();
-        Self { rest_density, sorted: Vec::new(), distances: Vec::new(), sums: Vec::new(), shifts: Vec::new() }
+        Self { rest_density: density::lattice_density(), sorted: Vec::new(), scratch: Vec::new() }
     }
 }
 
@@ -172,71 +179,59 @@ impl Workspace {
         period: Period,
     ) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
-        for (fluid, sorted) in fluids.iter().zip(&mut self.sorted) {
-            sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(), fluid.margin()], period);
-        }
+        let portions = fluids.chunks(FLUIDS).zip(self.sorted.chunks_mut(FLUIDS)).collect();
+        parallel::for_each(portions, |(fluids, sorted): (&[Fluid], &mut [Sorted])| {
+            for (fluid, sorted) in fluids.iter().zip(sorted) {
+                sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(), fluid.margin()], period);
+            }
+        });
     }
 
     /// One iteration of all fluids' density constraints (or of their grains' contacts), and the viscosity of a substep of
-    /// `h`.
+    /// `h`. No particle is in two of them.
     pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
-        let Self { rest_density, sorted, distances, sums, shifts } = self;
-        for (fluid, sorted) in fluids.iter().zip(sorted).filter(|(fluid, _)| !fluid.particles.is_empty()) {
-            let support_radius = fluid.support_radius();
-            sorted.read(particles, support_radius);
-            sums.resize(sorted.groups.len(), Sums::default());
-            shifts.resize(sorted.groups.len(), Default::default());
-            let viscosity = fluid.params.viscosity * h;
-            match fluid.params.mode {
-                FluidMode::Density => {
-                    distances.resize(sorted.candidates(), Lanes::default());
-                    find_multipliers(sorted, distances, sums, [*rest_density, density::relaxation(h)], dispatch);
-                    // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
-                    if fluid.is_enclosed {
-                        find_density_shifts(
-                            sorted,
-                            distances,
-                            sums,
-                            shifts,
-                            [viscosity, *rest_density],
-                            density::keep_spacing(density::spacing_share(h)),
-                            dispatch,
-                        );
-                    } else {
-                        find_density_shifts(
-                            sorted,
-                            distances,
-                            sums,
-                            shifts,
-                            [viscosity, *rest_density],
-                            density::keep_no_spacing,
-                            dispatch,
-                        );
-                    }
-                }
-                FluidMode::Granular => {
-                    find_shares(sorted, sums, dispatch);
-                    // Enclosed grains are those of a cell that is filled before it is spawned.
-                    let (params, keeps_momentum) = (fluid.params, !fluid.is_enclosed);
-                    for_each_group(
-                        &sorted.groups,
-                        shifts,
-                        dispatch,
-                        #[inline(always)]
-                        |_, group, shifts| {
-                            *shifts = granular::shifts(
-                                group,
-                                &sorted.neighbours,
-                                [viscosity, params.friction],
-                                keeps_momentum,
-                            );
-                        },
-                    );
-                }
+        let Self { rest_density, sorted, scratch } = self;
+        scratch.resize_with(fluids.len().div_ceil(FLUIDS), Scratch::default);
+        let portions = fluids.chunks(FLUIDS).zip(sorted.chunks_mut(FLUIDS)).zip(scratch).collect();
+        let found = &*particles;
+        parallel::for_each(portions, |((fluids, sorted), scratch): ((&[Fluid], &mut [Sorted]), &mut Scratch)| {
+            for (fluid, sorted) in fluids.iter().zip(sorted) {
+                sorted.read(found, fluid.support_radius());
+                find_shifts(fluid, sorted, scratch, [*rest_density, h], dispatch);
+                sorted.hold_images();
             }
-            sorted.hold_images(shifts);
-            sorted.shift(shifts, support_radius, particles);
+        });
+        for (fluid, sorted) in fluids.iter().zip(sorted) {
+            sorted.shift(fluid.support_radius(), particles);
         }
+    }
+}
+
+/// Finds how far the particles of a fluid are moved in a substep of `h`.
+fn find_shifts(
+    fluid: &Fluid,
+    sorted: &mut Sorted,
+    Scratch { distances, sums }: &mut Scratch,
+    [rest_density, h]: [f32; 2],
+    dispatch: Dispatch,
+) {
+    sums.resize(sorted.groups.len(), Sums::default());
+    let viscosity = fluid.params.viscosity * h;
+    if fluid.params.mode == FluidMode::Granular {
+        find_shares(sorted, sums, dispatch);
+        // Enclosed grains are those of a cell that is filled before it is spawned.
+        find_granular_shifts(sorted, [viscosity, fluid.params.friction], !fluid.is_enclosed, dispatch);
+        return;
+    }
+    distances.resize(sorted.candidates(), Lanes::default());
+    find_multipliers(sorted, distances, sums, [rest_density, density::relaxation(h)], dispatch);
+    let viscosity = [viscosity, rest_density];
+    // A least spacing closes voids in a membrane, but free fluid boils on it when substeps are few.
+    if fluid.is_enclosed {
+        let share = density::spacing_share(h);
+        find_density_shifts(sorted, distances, sums, viscosity, density::keep_spacing(share), dispatch);
+    } else {
+        find_density_shifts(sorted, distances, sums, viscosity, density::keep_no_spacing, dispatch);
     }
 }
 
@@ -296,10 +291,9 @@ fn tell_neighbours(sorted: &mut Sorted, sums: &[Sums]) {
 }
 
 fn find_density_shifts(
-    Sorted { groups, neighbours, .. }: &Sorted,
+    Sorted { groups, neighbours, shifts, .. }: &mut Sorted,
     distances: &[Lanes],
     sums: &[Sums],
-    shifts: &mut [[Lanes; 2]],
     viscosity: [f32; 2],
     added: impl Fn(f32, f32) -> f32 + Copy + Sync + Send,
     dispatch: Dispatch,
@@ -312,6 +306,23 @@ fn find_density_shifts(
         |k, group, shifts| {
             let distances = &distances[group.candidates()];
             *shifts = density::shifts(group, neighbours, distances, &sums[k], viscosity, added);
+        },
+    );
+}
+
+fn find_granular_shifts(
+    Sorted { groups, neighbours, shifts, .. }: &mut Sorted,
+    viscosity_and_friction: [f32; 2],
+    keeps_momentum: bool,
+    dispatch: Dispatch,
+) {
+    for_each_group(
+        groups,
+        shifts,
+        dispatch,
+        #[inline(always)]
+        |_, group, shifts| {
+            *shifts = granular::shifts(group, neighbours, viscosity_and_friction, keeps_momentum);
         },
     );
 }

@@ -61,6 +61,8 @@ pub(super) struct Sorted {
     /// In cell order, and some that are nowhere so that eight can be read from anywhere.
     pub neighbours: Vec<Neighbour>,
     pub groups: Vec<Group>,
+    /// Of each group, how far its members are moved, in units of the support radius.
+    pub shifts: Vec<[Lanes; 2]>,
     pub walls: Walls,
     /// Position in the world that their coordinates are relative to.
     low: Vec2,
@@ -134,9 +136,9 @@ impl Sorted {
         neighbours.resize(sorted.len() + LANES, nowhere);
     }
 
-    /// Moves the members of each group, in units of the support radius.
-    pub(super) fn shift(&self, shifts: &[[Lanes; 2]], support_radius: f32, particles: &mut Particles) {
-        for (group, [shift_x, shift_y]) in self.groups.iter().zip(shifts) {
+    /// Moves the members of each group by their shifts.
+    pub(super) fn shift(&self, support_radius: f32, particles: &mut Particles) {
+        for (group, [shift_x, shift_y]) in self.groups.iter().zip(&self.shifts) {
             for (l, &i) in self.particles[group.members.clone()].iter().enumerate() {
                 particles.x[i as usize] += shift_x[l] * support_radius;
                 particles.y[i as usize] += shift_y[l] * support_radius;
@@ -193,16 +195,16 @@ impl Sorted {
     }
 
     /// Takes back what was found for images: only particles move.
-    pub(super) fn hold_images(&self, shifts: &mut [[Lanes; 2]]) {
+    pub(super) fn hold_images(&mut self) {
         for image in &self.images {
             let group = self.groups.partition_point(|group| group.members.end <= image.place);
             let lane = image.place - self.groups[group].members.start;
-            shifts[group].iter_mut().for_each(|lanes| lanes[lane] = 0.0);
+            self.shifts[group].iter_mut().for_each(|lanes| lanes[lane] = 0.0);
         }
     }
 
     fn find_groups(&mut self, distance: f32) {
-        let Self { grid, groups, .. } = self;
+        let Self { grid, groups, shifts, .. } = self;
         let (span, mut first_candidate) = (grid.columns_within(distance), 0);
         groups.clear();
         for row in 0..grid.rows() {
@@ -219,6 +221,7 @@ impl Sorted {
                 groups.push(group);
             }
         }
+        shifts.resize(groups.len(), Default::default());
     }
 }
 

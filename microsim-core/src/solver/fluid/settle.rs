@@ -5,6 +5,7 @@ use crate::geometry::period::Period;
 use crate::instruction_set::Dispatch;
 use crate::particle::{CollisionGroups, Material, Particle, Particles};
 use glam::Vec2;
+use std::slice;
 
 /// Number of iterations, each of the density and then of the least spacing.
 const ITERATIONS: usize = 60;
@@ -30,15 +31,21 @@ pub(crate) fn settle(points: &mut [Vec2], params: FluidParams, confine: impl Fn(
         let index = particles.insert(&disc(far + point));
         fluids.iter_mut().for_each(|fluid| fluid.particles.push(index));
     }
-    let mut workspace = Workspace::default();
+    // One after the other, because they move the same particles.
+    let mut workspaces = [(); 2].map(|()| Workspace::default());
     for _ in 0..ITERATIONS {
         for i in 0..points.len() {
             let (at, before) = (particles.offset(i), Vec2::new(particles.prev_x[i], particles.prev_y[i]));
             (particles.prev_x[i], particles.prev_y[i]) = at.into();
             (particles.x[i], particles.y[i]) = (at + INERTIA * (at - before)).into();
         }
-        workspace.find_neighbours(&fluids, &particles, [Vec2::ZERO, Vec2::INFINITY], Period::NONE);
-        workspace.project(&fluids, &mut particles, SUBSTEP, Dispatch::default());
+        let pairs = || fluids.iter().map(slice::from_ref);
+        for (workspace, fluid) in workspaces.iter_mut().zip(pairs()) {
+            workspace.find_neighbours(fluid, &particles, [Vec2::ZERO, Vec2::INFINITY], Period::NONE);
+        }
+        for (workspace, fluid) in workspaces.iter_mut().zip(pairs()) {
+            workspace.project(fluid, &mut particles, SUBSTEP, Dispatch::default());
+        }
         for i in 0..points.len() {
             (particles.x[i], particles.y[i]) = (far + confine(particles.offset(i) - far)).into();
         }
