@@ -152,7 +152,7 @@ impl FoundLinks {
 }
 
 /// Rings near which discs are searched at a time, a fixed number whatever the number of threads.
-const PORTION: usize = 8;
+const PORTION: usize = 16;
 /// In no ring.
 const NO_RING: u32 = u32::MAX;
 

@@ -29,7 +29,7 @@ pub(crate) use settle::settle;
 /// Groups that are worked on at a time, a fixed number whatever the number of threads.
 const PORTION: usize = 64;
 /// Fluids that are worked on at a time, likewise: most are those of cells, and small.
-const FLUIDS: usize = 4;
+const FLUIDS: usize = 16;
 
 /// How the particles of a fluid keep apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
