@@ -269,7 +269,7 @@ impl Bodies {
         match self.made_discs(body) {
             Some(discs) => discs.iter().filter(|disc| disc.aabb().overlaps(aabb)).for_each(visit),
             None => {
-                self.discs_of(body, particles).filter(|disc| disc.aabb().overlaps(aabb)).for_each(|disc| visit(&disc))
+                self.discs_of(body, particles).filter(|disc| disc.aabb().overlaps(aabb)).for_each(|disc| visit(&disc));
             }
         }
     }

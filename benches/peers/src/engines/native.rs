@@ -3,7 +3,6 @@
 #![allow(unsafe_code, reason = "foreign functions; each call below upholds what `native/peer.h` says")]
 
 use super::Peer;
-use super::native_crowd::CrowdDescription;
 use crate::scene::{self, DISCS, DT, FluidBlock, Platelet, PlateletField, Pusher, SATELLITES};
 use microsim_core::glam::Vec2;
 use std::ffi::c_void;
@@ -75,6 +74,23 @@ struct Block {
     dt: f32,
     spacing: f32,
     gravity: f32,
+}
+
+#[repr(C)]
+pub(super) struct CrowdDescription {
+    pub(super) centres: *const Vector,
+    pub(super) cell_count: usize,
+    pub(super) ring: *const Vector,
+    pub(super) ring_count: usize,
+    pub(super) cytoplasm: *const Vector,
+    pub(super) cytoplasm_count: usize,
+    pub(super) size: Vector,
+    pub(super) dt: f32,
+    pub(super) disc_radius: f32,
+    pub(super) spacing: f32,
+    pub(super) friction: f32,
+    pub(super) damping: f32,
+    pub(super) max_speed: f32,
 }
 
 #[repr(C)]

@@ -3,28 +3,10 @@
 #![allow(unsafe_code, reason = "foreign functions; each call below upholds what `native/peer.h` says")]
 
 use super::Peer;
-use super::native::{Functions, LIQUIDFUN, Native, Vector, vector};
+use super::native::{CrowdDescription, Functions, LIQUIDFUN, Native, Vector, vector};
 use crate::scene::crowd::{Crowd, DISC_RADIUS, FRICTION, MAX_SPEED, SPACING, drive};
 use crate::scene::{DAMPING, DT};
 use microsim_core::glam::Vec2;
-
-/// `PeerCrowd` of `native/peer.h`.
-#[repr(C)]
-pub(super) struct CrowdDescription {
-    centres: *const Vector,
-    cell_count: usize,
-    ring: *const Vector,
-    ring_count: usize,
-    cytoplasm: *const Vector,
-    cytoplasm_count: usize,
-    size: Vector,
-    dt: f32,
-    disc_radius: f32,
-    spacing: f32,
-    friction: f32,
-    damping: f32,
-    max_speed: f32,
-}
 
 struct NativeCrowd {
     native: Native,
