@@ -296,8 +296,10 @@ impl Screen for Play {
         let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
         let lesson = context.lessons.pass(&hints, context.time);
-        let advice =
-            self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(|lesson| words::text(lesson).to_owned()));
+        let is_taken = view.organism(self.seen()).is_some_and(|cell| cell.held_by().is_some());
+        let lesson = is_taken.then_some(Key::HintTaken).or(lesson);
+        let advice = self.advice(&hints, key.as_deref(), covered > 0.0).filter(|_| !is_taken);
+        let advice = advice.or(lesson.map(|lesson| words::text(lesson).to_owned()));
         let pen = &mut context.pen;
         self.draw_marks(pen, &style, view, &hints);
         self.draw_status(pen, context.settings.reduced_motion);
