@@ -5,9 +5,9 @@ use crate::rules::round::Round;
 use crate::rules::slide_bot::SlideBot;
 use crate::rules::threat::{engulfers, free_place};
 use crate::sound::Cue;
-use microsim_core::{Intent, Kind};
 use microsim_core::replay::Replay;
 use microsim_core::scenario::builtin;
+use microsim_core::{Intent, Kind};
 use std::collections::BTreeSet;
 
 fn round(text: &str, seed: u64) -> Round {
@@ -166,7 +166,8 @@ fn taken_in() -> Round {
         let is_held = world.view().organism(player).is_some_and(|cell| cell.held_by().is_some());
         // Where it is carried to is no place that it has reached.
         assert!(!is_held || (free_place(world, player).is_none() && engulfers(world.view(), player).is_empty()));
-        let larger = round.world().view().organisms().find(|it| it.id() != round.player() && it.kind() == Kind::AmoeboidCell);
+        let larger =
+            round.world().view().organisms().find(|it| it.id() != round.player() && it.kind() == Kind::AmoeboidCell);
         vec![larger.and_then(|larger| Intent::toward(larger.centroid()).ok()).unwrap_or(Intent::REST)]
     };
     play(round(&text, 1), 60.0, meet)

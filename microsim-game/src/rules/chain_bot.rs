@@ -6,7 +6,7 @@ use super::food_chain::threats_and_victims;
 use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::round::Round;
-use super::threat::{Other, refuge};
+use super::threat::Other;
 use microsim_core::glam::Vec2;
 use microsim_core::{Intent, OrganismView, PreyClass, Rng};
 
@@ -30,6 +30,8 @@ impl Skill {
 
 /// Steps between two decisions.
 const INTERVAL: u64 = 10;
+/// Distance from the rim of a threat within which a survivor flees, and takes no food, units.
+const DANGER: f32 = 13.0;
 /// Time between two goals of the random bot, steps.
 const RANDOM_INTERVAL: u64 = 120;
 /// How long a trial of a change plays on, s, and how many trials there are of each.
@@ -130,11 +132,28 @@ impl ChainBot {
     fn survive(&self, round: &Round, cell: OrganismView<'_>) -> Option<Vec2> {
         let [threats, _] = threats_and_victims(round.world().view(), round.player());
         let at = cell.centroid();
-        if threats.first().is_some_and(|threat| threat.is_near(at)) {
-            refuge(&self.map, round.world().config().size, at, &threats)
+        if threats.first().is_some_and(|threat| is_near(threat, at)) {
+            self.refuge(round, at, &threats)
         } else {
             self.food(round, cell, &threats)
         }
+    }
+
+    /// The place of a coarse grid that is farthest from threats, on a way that leads to none.
+    fn refuge(&self, round: &Round, at: Vec2, threats: &[Other]) -> Option<Vec2> {
+        let size = round.world().config().size;
+        let places = (0..8).flat_map(|x| (0..4).map(move |y| Vec2::new(x as f32 + 0.5, y as f32 + 0.5)));
+        let places = places.map(|place| place / Vec2::new(8.0, 4.0) * size);
+        let safety = |place: Vec2| {
+            let way = (self.map.next(at, place) - at).normalize_or_zero();
+            let ahead =
+                |threat: &Other| way.dot((threat.at - at).normalize_or_zero()) * 40.0 / (1.0 + 0.1 * threat.distance);
+            let risk = threats.iter().filter(|threat| threat.distance < 60.0).map(ahead).fold(-40.0, f32::max);
+            threats.iter().map(|threat| threat.at.distance(place)).fold(60.0, f32::min)
+                - risk
+                - 0.1 * at.distance(place)
+        };
+        places.max_by(|a, b| safety(*a).total_cmp(&safety(*b)))
     }
 
     /// Where there is most to be had for the way.
@@ -157,11 +176,15 @@ impl ChainBot {
             let [_, victims] = threats_and_victims(view, round.player());
             found.extend(victims.iter().map(|victim| (victim.at, 15.0)));
         }
-        let is_safe = |place: Vec2| !threats.iter().any(|threat| threat.is_near(place));
+        let is_safe = |place: Vec2| !threats.iter().any(|threat| is_near(threat, place));
         let best = found.into_iter().filter(|(place, _)| is_safe(*place));
         let for_the_way = |&(place, worth): &(Vec2, f32)| worth / (4.0 + place.distance(at));
         best.max_by(|a, b| for_the_way(a).total_cmp(&for_the_way(b))).map(|(place, _)| place)
     }
+}
+
+fn is_near(threat: &Other, place: Vec2) -> bool {
+    threat.at.distance(place) - threat.half_extent < DANGER
 }
 
 #[cfg(test)]

@@ -155,4 +155,21 @@ mod tests {
         let shut = PathMap::new(&world("from = [30.0, 0.0]\nto = [30.0, 40.0]"));
         assert_eq!(shut.next(from, to), to, "no way");
     }
+
+    #[test]
+    fn what_is_wide_does_not_get_through_a_gap() {
+        let text = "schema = 1\n[world]\nsize = [60.0, 40.0]\n\
+                    [[wall]]\nthickness = 4.0\nfrom = [30.0, 0.0]\nto = [30.0, 14.0]\n\
+                    [[wall]]\nthickness = 4.0\nfrom = [30.0, 26.0]\nto = [30.0, 40.0]\n";
+        let map = PathMap::new(&Scenario::parse(text, &[]).unwrap().build().unwrap().world);
+        let ways = |needed, body| {
+            let far = map.reach(Vec2::new(15.0, 20.0), needed, body);
+            [[29.0, 20.0], [45.0, 20.0]].map(|at| far[map.cell(Vec2::from(at))])
+        };
+        let [gap, behind] = ways(2.0, 0.0);
+        assert!((gap - 14.0).abs() < 2.0 && (behind - 30.0).abs() < 2.0, "{gap} {behind}");
+        assert_eq!(ways(7.0, 0.0), [f32::INFINITY; 2]);
+        let [gap, behind] = ways(7.0, 10.0);
+        assert!(gap < 20.0 && behind == f32::INFINITY, "its rim is in the gap: {gap} {behind}");
+    }
 }

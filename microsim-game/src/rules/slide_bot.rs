@@ -1,11 +1,11 @@
 //! A bot that plays slides: it does one goal after another, sees obstacles, and flees from what can take it in.
 
 use super::attempt::wanted;
+use super::flight::Flight;
 use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::prey_class;
 use super::round::Round;
-use super::flight::Flight;
 use super::threat::engulfers;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;

@@ -1,11 +1,7 @@
-//! Larger amoebae as a cell meets them: who can take it in, where it is safe from them, and what becomes of it inside one.
+//! Larger amoebae as a cell meets them: who can take it in, and what becomes of it inside one.
 
-use super::path::PathMap;
 use microsim_core::glam::Vec2;
 use microsim_core::{Event, IngestionWay, Inputs, Intent, OrganismId, OrganismView, View, World};
-
-/// Distance from the rim of a threat within which bots flee, and take no food, units.
-const DANGER: f32 = 13.0;
 
 /// Another amoeba, as the player's cell meets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,15 +21,9 @@ impl Other {
         let ((low, high), at) = (other.bounds(), other.centroid());
         Self { at, half_extent: 0.5 * (high - low).max_element(), distance: (at - cell.centroid()).length() }
     }
-
-    /// Whether a place is so near to it that bots leave it.
-    #[must_use]
-    pub fn is_near(&self, place: Vec2) -> bool {
-        self.at.distance(place) - self.half_extent < DANGER
-    }
 }
 
-/// The amoebae that can take a free cell in, the nearest first.
+/// The amoebae that can take a free cell in.
 #[must_use]
 pub fn engulfers(view: View<'_>, cell: OrganismId) -> Vec<Other> {
     let Some(cell) = view.organism(cell).filter(|cell| cell.held_by().is_none()) else { return Vec::new() };
@@ -42,24 +32,7 @@ pub fn engulfers(view: View<'_>, cell: OrganismId) -> Vec<Other> {
         params.is_some_and(|params| other.cytoplasm_area() >= params.size_ratio * cell.cytoplasm_area())
     };
     let others = view.organisms().filter(|other| other.id() != cell.id()).filter(can_engulf);
-    let mut found: Vec<Other> = others.map(|other| Other::seen(other, cell)).collect();
-    found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    found
-}
-
-/// The place of a coarse grid that is farthest from threats, on a way that leads to none.
-#[must_use]
-pub fn refuge(map: &PathMap, size: Vec2, at: Vec2, threats: &[Other]) -> Option<Vec2> {
-    let places = (0..8).flat_map(|x| (0..4).map(move |y| Vec2::new(x as f32 + 0.5, y as f32 + 0.5)));
-    let places = places.map(|place| place / Vec2::new(8.0, 4.0) * size);
-    let safety = |place: Vec2| {
-        let way = (map.next(at, place) - at).normalize_or_zero();
-        let ahead =
-            |threat: &Other| way.dot((threat.at - at).normalize_or_zero()) * 40.0 / (1.0 + 0.1 * threat.distance);
-        let risk = threats.iter().filter(|threat| threat.distance < 60.0).map(ahead).fold(-40.0, f32::max);
-        threats.iter().map(|threat| threat.at.distance(place)).fold(60.0, f32::min) - risk - 0.1 * at.distance(place)
-    };
-    places.max_by(|a, b| safety(*a).total_cmp(&safety(*b)))
+    others.map(|other| Other::seen(other, cell)).collect()
 }
 
 /// Where a cell is, if it is free.
@@ -112,9 +85,11 @@ mod tests {
             let round = room(radius, way);
             engulfers(round.world().view(), round.player())
         };
-        assert_eq!([(7.0, "wide_gate"), (12.0, "cup"), (12.0, "gate")].map(|(r, way)| threats(r, way)), [const { Vec::new() }; 3]);
+        assert_eq!(
+            [(7.0, "wide_gate"), (12.0, "cup"), (12.0, "gate")].map(|(r, way)| threats(r, way)),
+            [const { Vec::new() }; 3]
+        );
         let [threat] = threats(12.0, "wide_gate")[..] else { panic!("one threat") };
         assert!((threat.distance - 30.0).abs() < 0.5 && (threat.half_extent - 12.0).abs() < 1.0, "{threat:?}");
-        assert!(threat.is_near(Vec2::new(30.0, 30.0)) && !threat.is_near(Vec2::new(20.0, 30.0)));
     }
 }

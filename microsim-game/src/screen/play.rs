@@ -42,6 +42,8 @@ pub(super) struct Play {
     task: Option<String>,
     viewer: Viewer,
     gains: marks::Gains,
+    /// Most of each chemical so far.
+    fullest: Vec<f32>,
     /// What was heard in this frame.
     heard: Vec<Cue>,
     follow: Follow,
@@ -124,6 +126,7 @@ impl Play {
             played,
             viewer,
             gains: marks::Gains::default(),
+            fullest: Vec::new(),
             heard: Vec::new(),
             follow,
             own,
@@ -284,8 +287,14 @@ impl Screen for Play {
         let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
         let seen = context.paint(view, camera);
         if self.round.attempt().is_some() {
-            view.chemicals()
-                .for_each(|(_, chemical)| tint::draw_chemical(context.pen.canvas(), &seen, chemical, ALERT, SCENT));
+            for (k, (_, chemical)) in view.chemicals().enumerate() {
+                let now = tint::fullest(chemical);
+                self.fullest.resize(self.fullest.len().max(k + 1), 0.0);
+                self.fullest[k] = self.fullest[k].max(now);
+                // What nobody secretes any more fades.
+                let strength = SCENT * (now / self.fullest[k]).sqrt();
+                tint::draw_chemical(context.pen.canvas(), &seen, chemical, ALERT, strength);
+            }
         }
         if !context.is_top {
             return;
