@@ -155,6 +155,10 @@ impl Play {
             round.world()
         });
         self.gains.pass(context.pace.elapsed);
+        for (k, (_, chemical)) in self.round.world().view().chemicals().enumerate() {
+            self.fullest.resize(self.fullest.len().max(k + 1), 0.0);
+            self.fullest[k] = self.fullest[k].max(tint::fullest(chemical));
+        }
         let names = digested.into_iter().filter_map(|kind| Some(guide::of_kind(kind)?.name));
         names.for_each(|name| context.find(name));
         let events = [(Cue::Ingest, "phagocytosis"), (Cue::Digest, "phagosome"), (Cue::Divide, "division")];
@@ -288,11 +292,9 @@ impl Screen for Play {
         let seen = context.paint(view, camera);
         if self.round.attempt().is_some() {
             for (k, (_, chemical)) in view.chemicals().enumerate() {
-                let now = tint::fullest(chemical);
-                self.fullest.resize(self.fullest.len().max(k + 1), 0.0);
-                self.fullest[k] = self.fullest[k].max(now);
+                let (now, most) = (tint::fullest(chemical), self.fullest.get(k).copied().unwrap_or_default());
                 // What nobody secretes any more fades.
-                let strength = SCENT * (now / self.fullest[k]).sqrt();
+                let strength = if now < most { SCENT * (now / most).sqrt() } else { SCENT };
                 tint::draw_chemical(context.pen.canvas(), &seen, chemical, ALERT, strength);
             }
         }
