@@ -27,6 +27,7 @@ pub static SLIDES: &[BuiltinSlide] = &[
     slide("two-shapes", include_str!("../slides/two-shapes.toml")),
     slide("flood", include_str!("../slides/flood.toml")),
     slide("little-animals", include_str!("../slides/little-animals.toml")),
+    slide("predator", include_str!("../slides/predator.toml")),
 ];
 
 /// A slide that two to four play together.

@@ -3,10 +3,11 @@ use crate::rules::attempt::Attempt;
 use crate::rules::bot::{Bot, Policy};
 use crate::rules::round::Round;
 use crate::rules::slide_bot::SlideBot;
+use crate::rules::threat::{engulfers, free_place};
 use crate::sound::Cue;
-use microsim_core::Intent;
 use microsim_core::replay::Replay;
 use microsim_core::scenario::builtin;
+use microsim_core::{Intent, Kind};
 use std::collections::BTreeSet;
 
 fn round(text: &str, seed: u64) -> Round {
@@ -155,4 +156,31 @@ fn t87_a_slide_is_played_again_to_the_bit_from_its_record() {
         assert!(again.mismatch().is_none() && stars(&again) >= 2);
         assert!(again.heard().any(|cue| cue == Cue::End), "the end is heard");
     }
+}
+
+/// A player in the room of the predator, which it goes to meet: played until the predator has it.
+fn taken_in() -> Round {
+    let text = find("predator").unwrap().text.replace("at = [20.0, 48.0]", "at = [70.0, 48.0]");
+    let meet = |round: &Round| {
+        let (world, player) = (round.world(), round.player());
+        let is_held = world.view().organism(player).is_some_and(|cell| cell.held_by().is_some());
+        // Where it is carried to is no place that it has reached.
+        assert!(!is_held || (free_place(world, player).is_none() && engulfers(world.view(), player).is_empty()));
+        let larger =
+            round.world().view().organisms().find(|it| it.id() != round.player() && it.kind() == Kind::AmoeboidCell);
+        vec![larger.and_then(|larger| Intent::toward(larger.centroid()).ok()).unwrap_or(Intent::REST)]
+    };
+    play(round(&text, 1), 60.0, meet)
+}
+
+#[test]
+fn who_is_taken_in_by_a_larger_amoeba_loses_and_it_is_played_again_to_the_bit() {
+    let round = taken_in();
+    let attempt = round.attempt().unwrap();
+    assert!(round.is_over() && attempt.is_lost() && attempt.stars() == 0, "{} s", round.world().time());
+    assert!(round.world().kind(round.player()).is_none() && round.heard().any(|cue| cue == Cue::End));
+    let replay = Replay::read(&round.record().unwrap()).unwrap();
+    let again = play(Round::again(&replay).unwrap(), 90.0, |_| Vec::new());
+    assert_eq!((again.attempt(), again.mismatch()), (round.attempt(), None));
+    assert_eq!(again.world().digest(), round.world().digest());
 }

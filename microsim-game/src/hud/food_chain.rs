@@ -2,8 +2,8 @@
 
 use super::marks::{Style, draw_at_edge};
 use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
-use crate::rules::food_chain::Other;
 use crate::rules::food_chain::change::Change;
+use crate::rules::threat::Other;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::words::{self, Key};

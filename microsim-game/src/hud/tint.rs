@@ -7,9 +7,14 @@ use macroquad::color::Color;
 use microsim_core::Chemical;
 use microsim_core::glam::Vec2;
 
+/// How much of a chemical there is where it is fullest.
+pub(crate) fn fullest(chemical: &Chemical) -> f32 {
+    chemical.values().iter().fold(0.0_f32, |most, value| most.max(*value))
+}
+
 /// The cells of a chemical's grid, the fuller the more of it is there, at most this strong.
 pub(crate) fn draw_chemical(canvas: &mut Canvas, camera: &Camera, chemical: &Chemical, colour: Color, strength: f32) {
-    let most = chemical.values().iter().fold(0.0_f32, |most, value| most.max(*value));
+    let most = fullest(chemical);
     let (cell, columns) = (chemical.cell_size(), chemical.cells()[0]);
     for (k, value) in chemical.values().iter().enumerate().filter(|_| most > 0.0) {
         let low = cell * Vec2::new((k % columns) as f32, (k / columns) as f32);

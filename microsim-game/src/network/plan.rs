@@ -89,6 +89,9 @@ impl Way {
 
 /// Stars and time of an attempt, or what was done in time.
 fn slide_verdict(attempt: &Attempt) -> String {
+    if attempt.is_lost() {
+        return text(Key::SlideEndTaken).to_owned();
+    }
     let Some(time) = attempt.time() else {
         return text_with(Key::MatchSlideLate, &[("done", (&attempt.summary()).into())]);
     };

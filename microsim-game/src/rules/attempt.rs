@@ -13,6 +13,8 @@ pub struct Attempt {
     done: Vec<u32>,
     /// When all goals were reached, s.
     time: Option<f32>,
+    /// Whether the last cell that could reach them was taken in and digested.
+    is_lost: bool,
 }
 
 impl Attempt {
@@ -20,7 +22,7 @@ impl Attempt {
     #[must_use]
     pub fn new(slide: Slide) -> Self {
         let done = vec![0; slide.goals.len()];
-        Self { slide, done, time: None }
+        Self { slide, done, time: None, is_lost: false }
     }
 
     /// What a referee counts and how long: one point for each prey that a goal asks for.
@@ -59,6 +61,17 @@ impl Attempt {
     #[must_use]
     pub fn time(&self) -> Option<f32> {
         self.time
+    }
+
+    /// Ends it: a larger amoeba has digested whoever could reach the goals.
+    pub fn lose(&mut self) {
+        self.is_lost = self.time.is_none();
+    }
+
+    /// Whether a larger amoeba has ended it.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        self.is_lost
     }
 
     /// Stars, 0 before all goals are reached.

@@ -2,10 +2,11 @@
 
 use super::food_chain::bites::cytoplasm;
 use super::food_chain::change::Change;
-use super::food_chain::{Other, threats_and_victims};
+use super::food_chain::threats_and_victims;
 use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::round::Round;
+use super::threat::Other;
 use microsim_core::glam::Vec2;
 use microsim_core::{Intent, OrganismView, PreyClass, Rng};
 

@@ -11,6 +11,7 @@ pub mod attempt;
 pub mod bot;
 pub mod brake;
 pub mod chain_bot;
+pub mod flight;
 pub mod food_chain;
 pub mod game;
 pub mod hint;
@@ -21,6 +22,7 @@ pub mod referee;
 pub mod round;
 pub mod seating;
 pub mod slide_bot;
+pub mod threat;
 pub mod two_players;
 pub mod verdict;
 

@@ -4,6 +4,7 @@ use super::attempt::Attempt;
 use super::food_chain::change::Change;
 use super::food_chain::{self, Deed, Fate, FoodChain};
 use super::referee::{Gain, KindScore, Referee};
+use super::threat;
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
@@ -139,6 +140,7 @@ impl Round {
                 let mut inputs = Inputs::new();
                 // What is told to a cell that is gone does nothing.
                 cells.iter().zip(intents).for_each(|(cell, intent)| inputs.set(*cell, *intent));
+                threat::digest_players(&run.world, &cells, &mut inputs);
                 run.step(&inputs);
                 record.extend(recorder.step(&inputs, &run.world));
             }
@@ -159,9 +161,12 @@ impl Round {
             }
         }
         if let Some(attempt) = &mut self.attempt {
-            let players: Vec<_> = self.seats.iter().filter_map(|seat| world.centroid(seat.cell)).collect();
+            let players: Vec<_> = cells.iter().filter_map(|cell| threat::free_place(world, *cell)).collect();
             let digested = |kind| self.seats.iter().map(|seat| seat.referee.digested(kind)).sum();
             attempt.after_step(world.time() as f32, &players, digested);
+            if threat::are_digested(world, &cells) {
+                attempt.lose();
+            }
         }
     }
 
@@ -213,10 +218,10 @@ impl Round {
     }
 
     fn is_dead(&self) -> bool {
-        self.chain.as_ref().is_some_and(FoodChain::is_over)
+        self.chain.as_ref().is_some_and(FoodChain::is_over) || self.attempt.as_ref().is_some_and(Attempt::is_lost)
     }
 
-    /// Whether time is up, all goals of a slide are reached, nobody of the player's line lives, or the replay ends.
+    /// Whether time is up, all goals of a slide are reached, nobody of the players or their lines lives, or the replay ends.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.is_won()

@@ -1,10 +1,12 @@
-//! A bot that plays slides: it does one goal after another, and sees obstacles.
+//! A bot that plays slides: it does one goal after another, sees obstacles, and flees from what can take it in.
 
 use super::attempt::wanted;
+use super::flight::Flight;
 use super::hint::{Readiness, readiness};
 use super::path::PathMap;
 use super::prey_class;
 use super::round::Round;
+use super::threat::engulfers;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
 use microsim_core::{Intent, Kind, OrganismView, View};
@@ -35,19 +37,32 @@ impl SlideBot {
     pub fn intent(&mut self, round: &Round) -> Intent {
         if round.world().step_index().is_multiple_of(INTERVAL) {
             let cell = round.players().nth(self.player);
-            let heading = cell.and_then(|cell| round.world().centroid(cell)).zip(target(round, self.player));
-            let next = heading.and_then(|(at, to)| Intent::toward(self.map.next(at, to)).ok());
+            let at = cell.and_then(|cell| round.world().centroid(cell));
+            let next = at.and_then(|at| Intent::toward(self.next(round, at)?).ok());
             self.intent = next.unwrap_or(Intent::REST).digesting(true);
         }
         self.intent
     }
+
+    /// Where it heads for: on the way to what a goal asks for, or away from threats.
+    fn next(&self, round: &Round, at: Vec2) -> Option<Vec2> {
+        let view = round.world().view();
+        let threats = engulfers(view, round.players().nth(self.player)?);
+        let places = places(round, self.player)?;
+        if threats.is_empty() {
+            let nearest = places.into_iter().min_by(|a, b| (*a - at).length().total_cmp(&(*b - at).length()));
+            return nearest.map(|to| self.map.next(at, to));
+        }
+        let flight = Flight::new(&self.map, at, &threats);
+        let to = flight.nearest(&places).or_else(|| flight.refuge())?;
+        Some(self.map.next_past(at, to, |cell| flight.risk(cell)))
+    }
 }
 
-/// The nearest place or prey that a goal asks for, or food to grow on.
-fn target(round: &Round, player: usize) -> Option<Vec2> {
+/// The places or prey that a goal asks for, or food to grow on.
+fn places(round: &Round, player: usize) -> Option<Vec<Vec2>> {
     let view = round.world().view();
     let cell = view.organism(round.players().nth(player)?)?;
-    let at = cell.centroid();
     let open = round.attempt()?.goals().filter(|&(goal, done)| done < wanted(goal));
     let mut is_first = true;
     let places = open.flat_map(|(goal, _)| match *goal {
@@ -59,7 +74,7 @@ fn target(round: &Round, player: usize) -> Option<Vec2> {
         Goal::Together { .. } => Vec::new(),
         Goal::Digest { kind, .. } => prey_of(view, cell, kind),
     });
-    places.min_by(|a, b| (*a - at).length().total_cmp(&(*b - at).length()))
+    Some(places.collect())
 }
 
 /// Which of two places a player goes to so that the sum of both ways is the shortest; none if two others are nearer.

@@ -6,6 +6,7 @@ use crate::hud::marks::Style;
 use crate::rules::food_chain::change::line_of;
 use crate::rules::food_chain::threats_and_victims;
 use crate::rules::round::Round;
+use crate::rules::threat::engulfers;
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
 use microsim_core::{OrganismId, View};
@@ -46,7 +47,7 @@ pub(super) fn seen(round: &Round, player: Option<usize>) -> Option<OrganismId> {
 }
 
 /// Marks how the bodies of all players have changed, and for one cell who can bite it and whom it can bite. Who plays it is told when
-/// it is bitten.
+/// it is bitten. Of other rounds it marks who can take the cell in.
 pub(super) fn draw(
     pen: &mut Pen,
     style: &Style<'_>,
@@ -54,7 +55,10 @@ pub(super) fn draw(
     view: View<'_>,
     (cell, is_played): (OrganismId, bool),
 ) {
-    let Some(chain) = round.chain() else { return };
+    let Some(chain) = round.chain() else {
+        food_chain::draw_others(pen, style, &[engulfers(view, cell), Vec::new()]);
+        return;
+    };
     food_chain::draw_others(pen, style, &threats_and_victims(view, cell));
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));

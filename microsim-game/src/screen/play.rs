@@ -42,6 +42,8 @@ pub(super) struct Play {
     task: Option<String>,
     viewer: Viewer,
     gains: marks::Gains,
+    /// Most of each chemical so far.
+    fullest: Vec<f32>,
     /// What was heard in this frame.
     heard: Vec<Cue>,
     follow: Follow,
@@ -124,6 +126,7 @@ impl Play {
             played,
             viewer,
             gains: marks::Gains::default(),
+            fullest: Vec::new(),
             heard: Vec::new(),
             follow,
             own,
@@ -152,6 +155,10 @@ impl Play {
             round.world()
         });
         self.gains.pass(context.pace.elapsed);
+        for (k, (_, chemical)) in self.round.world().view().chemicals().enumerate() {
+            self.fullest.resize(self.fullest.len().max(k + 1), 0.0);
+            self.fullest[k] = self.fullest[k].max(tint::fullest(chemical));
+        }
         let names = digested.into_iter().filter_map(|kind| Some(guide::of_kind(kind)?.name));
         names.for_each(|name| context.find(name));
         let events = [(Cue::Ingest, "phagocytosis"), (Cue::Digest, "phagosome"), (Cue::Divide, "division")];
@@ -284,8 +291,12 @@ impl Screen for Play {
         let (view, camera) = (self.viewer.view(self.round.world()), &self.viewer.camera);
         let seen = context.paint(view, camera);
         if self.round.attempt().is_some() {
-            view.chemicals()
-                .for_each(|(_, chemical)| tint::draw_chemical(context.pen.canvas(), &seen, chemical, ALERT, SCENT));
+            for (k, (_, chemical)) in view.chemicals().enumerate() {
+                let (now, most) = (tint::fullest(chemical), self.fullest.get(k).copied().unwrap_or_default());
+                // What nobody secretes any more fades.
+                let strength = if now < most { SCENT * (now / most).sqrt() } else { SCENT };
+                tint::draw_chemical(context.pen.canvas(), &seen, chemical, ALERT, strength);
+            }
         }
         if !context.is_top {
             return;
@@ -296,8 +307,10 @@ impl Screen for Play {
         let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
         let lesson = context.lessons.pass(&hints, context.time);
-        let advice =
-            self.advice(&hints, key.as_deref(), covered > 0.0).or(lesson.map(|lesson| words::text(lesson).to_owned()));
+        let is_taken = view.organism(self.seen()).is_some_and(|cell| cell.held_by().is_some());
+        let lesson = is_taken.then_some(Key::HintTaken).or(lesson);
+        let advice = self.advice(&hints, key.as_deref(), covered > 0.0).filter(|_| !is_taken);
+        let advice = advice.or(lesson.map(|lesson| words::text(lesson).to_owned()));
         let pen = &mut context.pen;
         self.draw_marks(pen, &style, view, &hints);
         self.draw_status(pen, context.settings.reduced_motion);

@@ -124,7 +124,8 @@ fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
         let done = attempt.summary();
         let left = [("task", (&slide.task).into()), ("done", (&done).into())];
         let left = (TextSize::Body, HALO, words::text_with(Key::SlideEndLeft, &left));
-        return vec![heading(words::text(Key::SlideEndLate).to_owned()), left];
+        let why = if attempt.is_lost() { Key::SlideEndTaken } else { Key::SlideEndLate };
+        return vec![heading(words::text(why).to_owned()), left];
     };
     let mut told = vec![heading(words::text_with(Key::SlideEndDone, &[("time", (&words::number(time, 1)).into())]))];
     let next = slide.stars.iter().rev().find(|longest| time > **longest);

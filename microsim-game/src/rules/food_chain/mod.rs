@@ -8,11 +8,11 @@ pub mod change;
 mod line;
 
 use super::seating::seat;
+use super::threat::Other;
 use bites::{Bites, can_bite, cytoplasm};
 use change::{Change, changes, line_of, mark};
 pub use line::Fate;
 use line::Line;
-use microsim_core::glam::Vec2;
 use microsim_core::{Kind, OrganismId, OrganismView, View, World};
 
 /// Name of its scenario.
@@ -210,17 +210,6 @@ impl FoodChain {
     }
 }
 
-/// Another amoeba, as the player's cell meets it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Other {
-    /// Its middle.
-    pub at: Vec2,
-    /// Half its length, units.
-    pub half_extent: f32,
-    /// How far its middle is from the cell's, units.
-    pub distance: f32,
-}
-
 /// The amoebae of no line or another one that can bite a cell, and those that it can bite, the nearest first.
 #[must_use]
 pub fn threats_and_victims(view: View<'_>, player: OrganismId) -> [Vec<Other>; 2] {
@@ -228,16 +217,11 @@ pub fn threats_and_victims(view: View<'_>, player: OrganismId) -> [Vec<Other>; 2
     let amoebae =
         || view.organisms().filter(|other| other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell));
     let mut found = [
-        amoebae().filter(|other| can_bite(*other, cell)).map(|other| seen(other, cell)).collect::<Vec<_>>(),
-        amoebae().filter(|other| can_bite(cell, *other)).map(|other| seen(other, cell)).collect(),
+        amoebae().filter(|other| can_bite(*other, cell)).map(|other| Other::seen(other, cell)).collect::<Vec<_>>(),
+        amoebae().filter(|other| can_bite(cell, *other)).map(|other| Other::seen(other, cell)).collect(),
     ];
     found.iter_mut().for_each(|others| others.sort_by(|a, b| a.distance.total_cmp(&b.distance)));
     found
-}
-
-fn seen(other: OrganismView<'_>, cell: OrganismView<'_>) -> Other {
-    let ((low, high), at) = (other.bounds(), other.centroid());
-    Other { at, half_extent: 0.5 * (high - low).max_element(), distance: (at - cell.centroid()).length() }
 }
 
 #[cfg(test)]

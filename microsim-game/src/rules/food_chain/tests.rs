@@ -5,6 +5,7 @@ use super::*;
 use crate::rules::bot::{Bot, Policy};
 use crate::rules::round::Round;
 use microsim_core::Intent;
+use microsim_core::glam::Vec2;
 use microsim_core::replay::Replay;
 use microsim_core::scenario::Scenario;
 
