@@ -37,7 +37,7 @@ pub enum SnapshotError {
     /// The world cannot be written: the shape of an obstacle is of a kind that the format does not know. It knows balls,
     /// cuboids, capsules, segments, triangles, convex polygons, polylines, and compounds of all but the last.
     UnknownShape {
-        /// Its position in [`World::obstacles`].
+        /// Its position in [`World::obstacles`](crate::World::obstacles).
         obstacle: usize,
     },
 }

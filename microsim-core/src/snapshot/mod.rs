@@ -90,6 +90,8 @@ fn decode<T: DeserializeOwned>(content: &[u8]) -> Result<T, SnapshotError> {
 #[cfg(test)]
 mod busy;
 #[cfg(test)]
+mod known_layout;
+#[cfg(test)]
 mod layout;
 #[cfg(test)]
 mod tests;
