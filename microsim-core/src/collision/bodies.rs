@@ -10,12 +10,12 @@ mod across;
 mod disc_list;
 mod pair_filter;
 
-use super::Contact;
 use super::aabb::{Aabb, LaneBoxes};
 use super::disc_grid::{Disc, DiscColumns, DiscGrid};
 use super::images::Images;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
+use super::{Contact, Mobility};
 use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
@@ -23,6 +23,7 @@ use crate::particle::{BlockRange, LANES, Particles};
 use disc_list::DiscList;
 use glam::Vec2;
 pub(super) use pair_filter::PairFilter;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Rows of cells that are searched at a time, a fixed number whatever the number of threads.
@@ -139,6 +140,13 @@ impl Bodies {
         are_made.then(|| &self.discs[body.discs.clone()])
     }
 
+    /// The discs of a sleeper.
+    #[cold]
+    #[inline(never)]
+    fn missing_discs(&self, body: &BodyProxy, particles: &Particles) -> Vec<Disc> {
+        self.discs_of(body, particles).collect()
+    }
+
     /// Its discs.
     #[inline]
     pub(super) fn discs_of(&self, body: &BodyProxy, particles: &Particles) -> impl Iterator<Item = Disc> {
@@ -187,13 +195,10 @@ impl Bodies {
     /// rows, of large ones to the others.
     pub(super) fn pairs(&self, filter: PairFilter<'_>, strips: &mut Vec<Vec<Contact>>, others: &mut Vec<Contact>) {
         let between = |a: &BodyProxy, b: &BodyProxy, near: &mut DiscList, found: &mut Vec<Contact>| {
-            let slack = a.slack + b.slack;
-            if a.aabb.shrunk(slack).overlaps(b.aabb)
+            if a.aabb.shrunk(a.slack + b.slack).overlaps(b.aabb)
                 && let Some(mobility) = filter.mobility(a, b)
             {
-                self.pairs_between([a, b], filter.particles, slack, near, |a, b| {
-                    found.extend(filter.contact(a, b, mobility));
-                });
+                self.contacts_between([a, b], mobility, filter, near, found);
             }
         };
         let within = |class: &SizeClass, rows: Range<usize>, found: &mut Vec<Contact>| {
@@ -243,6 +248,21 @@ impl Bodies {
         }
     }
 
+    /// Adds the contacts of the discs of two bodies that may touch within the speculative margins.
+    #[inline(never)]
+    fn contacts_between(
+        &self,
+        [a, b]: [&BodyProxy; 2],
+        mobility: [Mobility; 2],
+        filter: PairFilter<'_>,
+        near: &mut DiscList,
+        found: &mut Vec<Contact>,
+    ) {
+        self.pairs_between([a, b], filter.particles, a.slack + b.slack, near, |a, b| {
+            found.extend(filter.contact(a, b, mobility));
+        });
+    }
+
     /// Calls `visit` for each two discs of two bodies that may touch if both together move by `slack` less than the largest
     /// displacements.
     fn pairs_between(
@@ -265,13 +285,10 @@ impl Bodies {
 
     /// Calls `visit` for each disc of a body whose box overlaps a box.
     #[inline(always)]
-    fn for_each_disc_in(&self, body: &BodyProxy, aabb: Aabb, particles: &Particles, mut visit: impl FnMut(&Disc)) {
-        match self.made_discs(body) {
-            Some(discs) => discs.iter().filter(|disc| disc.aabb().overlaps(aabb)).for_each(visit),
-            None => {
-                self.discs_of(body, particles).filter(|disc| disc.aabb().overlaps(aabb)).for_each(|disc| visit(&disc));
-            }
-        }
+    fn for_each_disc_in(&self, body: &BodyProxy, aabb: Aabb, particles: &Particles, visit: impl FnMut(&Disc)) {
+        let discs =
+            self.made_discs(body).map_or_else(|| Cow::Owned(self.missing_discs(body, particles)), Cow::Borrowed);
+        discs.iter().filter(|disc| disc.aabb().overlaps(aabb)).for_each(visit);
     }
 }
 

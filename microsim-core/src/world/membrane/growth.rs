@@ -27,9 +27,10 @@ impl World {
     /// to it, if the centroid lies outside). New cytoplasm has the role [`Role::GrownCytoplasm`].
     ///
     /// # Errors
-    /// When the handle is stale, the organism has no membrane, is dividing or held by another cell, the nodes would be more than 4096 or fill more than the
-    /// present length of the membrane, twice as many as at rest, the membrane could not go round so much cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too
-    /// many particles. Nothing is changed then.
+    /// When the handle is stale, the organism has no membrane, is dividing or held by another cell, the nodes would be more than
+    /// 4096 or fill more than the present length of the membrane, twice as many as at rest, the membrane could not go round so much
+    /// cytoplasm or would at first hold more than one and a half times what it has room for, or the world would hold too many
+    /// particles. Nothing is changed then.
     pub fn grow(&mut self, id: OrganismId, nodes: u32, particles: u32) -> Result<(), Error> {
         if self.organisms.get(id).is_some_and(|organism| organism.furrow().is_some()) {
             return Err(Error::unsupported("organism", "an organism that is not dividing"));
