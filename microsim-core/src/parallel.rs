@@ -10,14 +10,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Particles that are worked on in one go, a fixed number whatever the number of threads.
 pub(crate) const CHUNK: usize = 2048;
 /// Particles from which on threads are worth their trouble.
-#[cfg(feature = "parallel")]
 const LARGE: usize = 8192;
+
+/// Whether a world with so many particles is stepped in parts.
+pub(crate) fn is_large(particles: usize) -> bool {
+    particles > LARGE
+}
 
 /// Does work with parts. If it is on many particles, it runs as a whole in the pool, unless it is on one of its threads
 /// already: entering the pool with each part would cost more than some parts do.
 pub(crate) fn in_pool(particles: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
-    if particles > LARGE && !is_inside() {
+    if is_large(particles) && !is_inside() {
         return rayon::scope(|_| with_default_float_environment(work));
     }
     let _ = particles;
@@ -27,6 +31,24 @@ pub(crate) fn in_pool(particles: usize, work: impl FnOnce() + Send) {
 /// Does each part.
 pub(crate) fn for_each<T: Send>(parts: Vec<T>, work: impl Fn(T) + Send + Sync) {
     map(parts, work);
+}
+
+/// Does each strip of the room, of which each may touch what is in the next one: in a large world every second one at the same time,
+/// then those between them.
+pub(crate) fn for_each_strip<T: Send>(
+    strips: impl Iterator<Item = T>,
+    particles: usize,
+    work: impl Fn(T) + Send + Sync,
+) {
+    if !is_large(particles) {
+        return strips.for_each(work);
+    }
+    let (mut even, mut odd) = (Vec::new(), Vec::new());
+    for (k, strip) in strips.enumerate() {
+        if k % 2 == 0 { even.push(strip) } else { odd.push(strip) }
+    }
+    for_each(even, &work);
+    for_each(odd, &work);
 }
 
 /// What each part gives, in their order. One at a time may be taken over by another thread: fewer would leave it waiting at
@@ -46,7 +68,7 @@ pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send 
 /// than many parts take. The work must not use the pool.
 pub(crate) fn serial(particles: usize, work: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
-    if particles > LARGE && is_inside() {
+    if is_large(particles) && is_inside() {
         let is_done = AtomicBool::new(false);
         let worker = || {
             let _end = SetAtEnd(&is_done);

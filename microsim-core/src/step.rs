@@ -9,6 +9,7 @@ use crate::organism::table::Organisms;
 use crate::parallel;
 use crate::particle::outside_of;
 use crate::solver::block::Block;
+use crate::solver::disc_contacts::LinkedBlocks;
 use crate::solver::membrane::{self, Membrane};
 use crate::solver::{
     block, contact, contraction, drive, integrate, obstacle, ring_contact, speed_limit, strays, stretch_damping,
@@ -119,7 +120,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
     let h = world.config.substep();
     for substep in 0..world.config.substeps {
         world.apply_fields(h);
-        serial(world, |world| predict_positions(world, h));
+        predict_positions(world, h);
         finished(Phase::PredictPositions);
         // Fluid before constraints: the membrane has the last word over its cytoplasm.
         project_fluids(world, h);
@@ -128,7 +129,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         project_constraints(world, h, substep);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        serial(world, project_contacts);
+        project_contacts(world);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         world.yield_links(substep, h);
@@ -202,14 +203,12 @@ fn predict_positions(world: &mut World, h: f32) {
     drive::pull(&scratch.tractions, particles, h);
     scratch.forces.apply(particles, config.gravity, config.speed_limit(), h);
     let outside = outside_of(blocks.iter().map(Block::range), particles.len());
-    let mut columns = particles.columns();
-    dispatch.run(
+    integrate::for_each_chunk(
+        particles,
+        outside,
+        *dispatch,
         #[inline(always)]
-        || {
-            for loose in outside.filter(|loose| !loose.is_empty()) {
-                integrate::predict_positions(&mut columns.part(loose), config.gravity, config.speed_limit(), h);
-            }
-        },
+        |chunk| integrate::predict_positions(chunk, config.gravity, config.speed_limit(), h),
     );
 }
 
@@ -271,17 +270,12 @@ fn project_contacts(world: &mut World) {
 /// Discs push each other apart; in long substeps, and where they press hard, bodies get their links back.
 fn project_discs(world: &mut World) {
     let World { config, particles, projections, blocks, organisms, exemptions, sleep, scratch, dispatch, .. } = world;
-    let Scratch { broad_phase, impacts, contact_records, pressed, .. } = scratch;
+    let Scratch { broad_phase, impacts, contact_records, disc_contacts, .. } = scratch;
     let late = broad_phase.find_late_pairs(particles, exemptions, sleep, config.max_substep_displacement());
     bound_driven_discs(late.iter_mut(), particles, organisms);
-    pressed.begin(config.substep());
-    for contacts in broad_phase.contacts.lists_mut() {
-        contact::project(contacts, particles, impacts, contact_records, |contact, particles| {
-            pressed.note(contact, particles);
-        });
-    }
-    broad_phase.contacts.lists_mut().for_each(|contacts| pressed.note_neighbours(contacts));
-    pressed.relink(blocks, |template| &projections[template].rigid_links, particles, contact_records, *dispatch);
+    let links = |template: usize| &*projections[template].rigid_links;
+    let (contacts, bodies) = (&mut *broad_phase.contacts, LinkedBlocks { blocks, links });
+    disc_contacts.project(contacts, particles, bodies, (impacts, contact_records), config.substep(), *dispatch);
 }
 
 fn update_velocities(world: &mut World, h: f32) {
@@ -299,7 +293,7 @@ fn update_velocities(world: &mut World, h: f32) {
     for (_, cell) in organisms.with_membrane().filter(|(_, organism)| organism.crawls()) {
         integrate::undo_damping(&cell.fluid_particles, particles, config.damping, h);
     }
-    let rings = &scratch.broad_phase.ring_contacts;
+    let rings = &mut *scratch.broad_phase.ring_contacts;
     count(&mut guard.wrong_side, ring_contact::keep_sides(rings, particles, *dispatch));
     contact::apply_restitution(&mut scratch.impacts, particles);
 }
@@ -307,18 +301,10 @@ fn update_velocities(world: &mut World, h: f32) {
 /// Cells keep their momentum at the speed limit; seldom anything comes to it.
 fn limit_ways_of_cells(world: &mut World, h: f32) {
     let World { config, particles, blocks, organisms, dispatch, .. } = world;
-    let mut outside = outside_of(blocks.iter().map(Block::range), particles.len()).filter(|loose| !loose.is_empty());
-    let (limit, mut columns) = (config.speed_limit(), particles.columns());
-    let exceeds = |loose| {
-        let mut loose = columns.part(loose);
-        dispatch.run(
-            #[inline(always)]
-            || integrate::exceeds_speed_limit(&mut loose, limit, h),
-        )
-    };
-    if outside.any(exceeds) {
+    let outside = outside_of(blocks.iter().map(Block::range), particles.len());
+    if integrate::exceed_speed_limit(particles, outside, *dispatch, config.speed_limit(), h) {
         for (_, cell) in organisms.with_membrane() {
-            speed_limit::limit_ways(|| cell.particles(), particles, limit * h);
+            speed_limit::limit_ways(|| cell.particles(), particles, config.speed_limit() * h);
         }
     }
 }

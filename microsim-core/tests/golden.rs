@@ -159,9 +159,12 @@ fn digests_do_not_depend_on_the_instruction_set() {
 #[cfg(feature = "parallel")]
 #[test]
 fn digests_do_not_depend_on_the_number_of_threads() {
-    // Enough platelets for several strips, batches and chunks, all stirred.
-    let crowded = Scenario::parse(builtin("platelets").unwrap().text, &[("count".into(), "400".into())]).unwrap();
-    let worlds = [crowded.build().unwrap().world, build("demo", None), build("dam-break", None)];
+    let many = |name, count: &str| {
+        let scenario = Scenario::parse(builtin(name).unwrap().text, &[("count".into(), count.into())]).unwrap();
+        scenario.build().unwrap().world
+    };
+    // Enough platelets for several strips, batches and chunks, all stirred, and cells for several portions of rings and fluids.
+    let worlds = [many("platelets", "400"), many("crowd", "100"), build("demo", None), build("dam-break", None)];
     for (which, world) in worlds.iter().enumerate() {
         let digest = || {
             let mut world = world.clone();

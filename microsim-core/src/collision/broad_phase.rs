@@ -166,8 +166,7 @@ impl BroadPhase {
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
     pub(crate) fn touched(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
         let discs = self.contacts.iter().filter(|contact| contact.touched).map(|contact| (contact.i, contact.j));
-        let links = self.ring_contacts.contacts.iter();
-        discs.chain(links.filter_map(|contact| Some((contact.particle, contact.touched?))))
+        discs.chain(self.ring_contacts.iter().filter_map(|(contact, _)| Some((contact.particle, contact.touched?))))
     }
 
     /// Sorts the colliding particles into bodies, membranes and fluid.

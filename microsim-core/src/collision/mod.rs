@@ -90,6 +90,12 @@ impl Contacts {
         Self { strips: self.strips.iter().map(list).collect(), others: list(&self.others) }
     }
 
+    /// Contacts in one list.
+    #[cfg(test)]
+    pub(crate) fn of(others: Vec<Contact>) -> Self {
+        Self { strips: Vec::new(), others }
+    }
+
     fn clear(&mut self) {
         self.strips.iter_mut().for_each(Vec::clear);
         self.others.clear();
@@ -100,7 +106,7 @@ impl Contacts {
         self.strips.iter().flatten().chain(&self.others)
     }
 
-    /// The lists.
+    /// The lists, that of the others last. A contact of a strip has a body of this strip, and another one of this or of the next one.
     pub(crate) fn lists_mut(&mut self) -> impl Iterator<Item = &mut [Contact]> {
         self.strips.iter_mut().chain([&mut self.others]).map(Vec::as_mut_slice)
     }

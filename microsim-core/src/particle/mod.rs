@@ -21,6 +21,7 @@ mod collision_groups;
 mod columns;
 pub(crate) mod mass_properties;
 mod material;
+mod position_cells;
 pub(crate) mod sleep;
 
 use crate::shared::Shared;
@@ -29,6 +30,7 @@ pub use collision_groups::CollisionGroups;
 pub(crate) use columns::Columns;
 use glam::Vec2;
 pub use material::Material;
+pub(crate) use position_cells::{DisjointPositions, PositionCells};
 use serde::{Deserialize, Serialize};
 
 /// Distance of neighbouring origins, units: a power of two, so that coordinates up to 65 536 units lie on it exactly.

@@ -8,7 +8,7 @@ use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use super::sweep::first_touch;
 use crate::collision::{Contact, FAST, Mobility};
-use crate::particle::Particles;
+use crate::particle::{Particles, PositionCells};
 use glam::Vec2;
 
 /// What is bounded counts as at most so many times as heavy as a linked disc: a heavier one would stretch the links faster than a
@@ -42,24 +42,24 @@ struct Penetration {
 /// Pushes overlapping discs apart, and tells of each two.
 pub(crate) fn project(
     contacts: &mut [Contact],
-    particles: &mut Particles,
+    p: PositionCells<'_>,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
-    mut projected: impl FnMut(&Contact, &Particles),
+    mut projected: impl FnMut(&Contact),
 ) {
     for contact in contacts {
         let (i, j) = (contact.i as usize, contact.j as usize);
-        let between = contact.between_origins + (particles.offset(j) - particles.offset(i));
-        if let Some(penetration) = penetration(contact, between, particles) {
+        let between = contact.between_origins + (p.offset(j) - p.offset(i));
+        if let Some(penetration) = penetration(contact, between, p) {
             contact.touched = true;
-            separate(contact, penetration, particles, impacts, recorder);
-            projected(contact, particles);
+            separate(contact, penetration, p, impacts, recorder);
+            projected(contact);
         }
     }
 }
 
 #[inline(always)]
-fn penetration(c: &Contact, between: Vec2, p: &Particles) -> Option<Penetration> {
+fn penetration(c: &Contact, between: Vec2, p: PositionCells<'_>) -> Option<Penetration> {
     let passed = if c.can_pass { passed(c, between, p) } else { None };
     let squared = between.length_squared();
     let overlap = || {
@@ -72,8 +72,8 @@ fn penetration(c: &Contact, between: Vec2, p: &Particles) -> Option<Penetration>
 
 /// How far two discs on a long way are beyond where they met first, if they are.
 #[cold]
-fn passed(c: &Contact, between: Vec2, p: &Particles) -> Option<Penetration> {
-    let way = moved(p, c.j as usize) - moved(p, c.i as usize);
+fn passed(c: &Contact, between: Vec2, p: PositionCells<'_>) -> Option<Penetration> {
+    let way = p.moved(c.j as usize) - p.moved(c.i as usize);
     let longest = FAST * c.radius_sum;
     let normal =
         if way.length_squared() > longest * longest { first_touch(between, way, c.radius_sum)? } else { return None };
@@ -84,7 +84,7 @@ fn passed(c: &Contact, between: Vec2, p: &Particles) -> Option<Penetration> {
 fn separate(
     c: &Contact,
     Penetration { normal, depth, has_passed }: Penetration,
-    p: &mut Particles,
+    p: PositionCells<'_>,
     impacts: &mut Vec<Impact>,
     recorder: &mut ContactRecorder,
 ) {
@@ -94,27 +94,28 @@ fn separate(
     if c.restitution > 0.0 || has_passed {
         impacts.extend(Impact::of(c, normal, p));
     }
-    recorder.note(p, || Projected {
+    recorder.note(|| Projected {
         particle: c.i,
         touched: Touched::Disc(c.j),
+        point: p.position(i) + normal * p.radius(i),
         normal: -normal,
         depth,
         weight: wi + wj,
         restitution: c.restitution,
-        velocity: p.velocity(j),
+        way: p.velocity(j) - p.velocity(i),
     });
     let push = normal * ratio(depth, wi + wj);
-    shift(p, i, -push * wi);
-    shift(p, j, push * wj);
-    let slip = moved(p, j) - moved(p, i);
+    p.shift(i, -push * wi);
+    p.shift(j, push * wj);
+    let slip = p.moved(j) - p.moved(i);
     let rub = friction(slip, normal, c.friction * depth) * ratio(1.0, wi + wj);
-    shift(p, i, -rub * wi);
-    shift(p, j, rub * wj);
+    p.shift(i, -rub * wi);
+    p.shift(j, rub * wj);
 }
 
 /// Inverse masses with which the two press on each other.
-fn weights(c: &Contact, p: &Particles) -> (f32, f32) {
-    let (wi, wj) = (p.inv_mass[c.i as usize], p.inv_mass[c.j as usize]);
+fn weights(c: &Contact, p: PositionCells<'_>) -> (f32, f32) {
+    let (wi, wj) = (p.inv_mass(c.i as usize), p.inv_mass(c.j as usize));
     match c.mobility {
         [Mobility::Asleep, _] => (0.0, wj),
         [_, Mobility::Asleep] => (wi, 0.0),
@@ -131,10 +132,11 @@ pub(crate) fn no_heavier(inv_mass: f32, other: f32) -> f32 {
     if inv_mass > 0.0 && inv_mass < least { least } else { inv_mass }
 }
 
-/// Whether a disc is so heavy on another one that links of the other need more than a substep's iterations.
+/// Whether a disc of inverse mass `inv_mass` is so heavy on one of inverse mass `on` that links of the other need more than a
+/// substep's iterations.
 #[inline(always)]
-pub(crate) fn is_heavy(p: &Particles, disc: u32, on: u32) -> bool {
-    p.inv_mass[disc as usize] * HEAVIEST < p.inv_mass[on as usize]
+pub(crate) fn is_heavy(inv_mass: f32, on: f32) -> bool {
+    inv_mass * HEAVIEST < on
 }
 
 /// The move that takes back slip along a surface, by at most `most`.
@@ -158,20 +160,21 @@ pub(crate) fn moved(p: &Particles, i: usize) -> Vec2 {
 
 impl Impact {
     /// An impact of two discs, if they approach each other; what sleeps is as if it were static.
-    fn of(c: &Contact, normal: Vec2, p: &Particles) -> Option<Self> {
+    fn of(c: &Contact, normal: Vec2, p: PositionCells<'_>) -> Option<Self> {
+        let [of_i, of_j] = [c.i, c.j].map(|i| p.velocity(i as usize));
         match c.mobility {
-            [Mobility::Asleep, _] => return Self::on_surface(p, c.j, -normal, c.restitution, Vec2::ZERO),
-            [_, Mobility::Asleep] => return Self::on_surface(p, c.i, normal, c.restitution, Vec2::ZERO),
+            [Mobility::Asleep, _] => return Self::on_surface(c.j, of_j, -normal, c.restitution, Vec2::ZERO),
+            [_, Mobility::Asleep] => return Self::on_surface(c.i, of_i, normal, c.restitution, Vec2::ZERO),
             _ => {}
         }
-        let approach = (p.velocity(c.j as usize) - p.velocity(c.i as usize)).dot(normal);
+        let approach = (of_j - of_i).dot(normal);
         let rebound = -c.restitution * approach;
         (approach < 0.0).then_some(Self { i: c.i, j: Some(c.j), normal, rebound, surface: Vec2::ZERO })
     }
 
     /// An impact of particle `i` on a surface of this velocity, which nothing moves, if it approaches it.
-    pub(crate) fn on_surface(p: &Particles, i: u32, normal: Vec2, restitution: f32, surface: Vec2) -> Option<Self> {
-        let approach = (surface - p.velocity(i as usize)).dot(normal);
+    pub(crate) fn on_surface(i: u32, velocity: Vec2, normal: Vec2, restitution: f32, surface: Vec2) -> Option<Self> {
+        let approach = (surface - velocity).dot(normal);
         (approach < 0.0).then_some(Self { i, j: None, normal, rebound: -restitution * approach, surface })
     }
 }
@@ -204,7 +207,13 @@ mod tests {
     }
 
     fn separate(contact: &mut Contact, p: &mut Particles) {
-        project(std::slice::from_mut(contact), p, &mut Vec::new(), &mut ContactRecorder::default(), |_, _| {});
+        super::project(
+            std::slice::from_mut(contact),
+            p.position_cells(),
+            &mut Vec::new(),
+            &mut ContactRecorder::default(),
+            |_| {},
+        );
     }
 
     #[test]
@@ -259,7 +268,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _| {});
+        project(&mut [touching(0.0, 0.5)], p.position_cells(), &mut impacts, &mut ContactRecorder::default(), |_| {});
         p.vx = vec![0.0, 0.0];
         apply_restitution(&mut impacts, &mut p);
         assert!((p.vx[1] - p.vx[0] - 1.0).abs() < 1e-6, "separation {}", p.vx[1] - p.vx[0]);
@@ -271,7 +280,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 0.25]);
         p.vx = vec![1.0, -1.0];
         let mut impacts = Vec::new();
-        project(&mut [touching(0.0, 0.5)], &mut p, &mut impacts, &mut ContactRecorder::default(), |_, _| {});
+        project(&mut [touching(0.0, 0.5)], p.position_cells(), &mut impacts, &mut ContactRecorder::default(), |_| {});
         p.vx = vec![0.5, 0.25];
         let before = momentum(&p);
         apply_restitution(&mut impacts, &mut p);
@@ -284,7 +293,7 @@ mod tests {
         let mut p = line(0.99, [1.0, 1.0]);
         p.vx[0] = 2.0;
         let of = |normal, restitution, surface| {
-            Impact::on_surface(&p, 0, normal, restitution, surface).map(|impact| impact.rebound)
+            Impact::on_surface(0, p.velocity(0), normal, restitution, surface).map(|impact| impact.rebound)
         };
         assert_eq!(of(Vec2::X, 0.5, Vec2::ZERO), Some(1.0));
         assert_eq!(of(Vec2::X, 0.5, Vec2::X), Some(0.5));
@@ -295,7 +304,7 @@ mod tests {
     #[test]
     fn only_what_is_more_than_the_largest_ratio_heavier_is_heavy() {
         for (inv_mass, heavy) in [(1.1, false), (1.0, false), (0.9, true)] {
-            assert_eq!(is_heavy(&line(1.0, [inv_mass, HEAVIEST]), 0, 1), heavy, "{inv_mass}");
+            assert_eq!(is_heavy(inv_mass, HEAVIEST), heavy, "{inv_mass}");
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Records of what contacts did in each substep, for reports. Nothing is recorded unless somebody wants to know.
 
 use super::lanes::ratio;
-use crate::particle::Particles;
 use glam::Vec2;
 
 /// What a disc touched.
@@ -32,14 +31,15 @@ pub(crate) struct ContactRecord {
 pub(crate) struct Projected {
     pub particle: u32,
     pub touched: Touched,
+    pub point: Vec2,
     /// Unit vector to the particle.
     pub normal: Vec2,
     pub depth: f32,
     /// Sum of the inverse masses of both sides along the normal.
     pub weight: f32,
     pub restitution: f32,
-    /// Velocity of what is touched.
-    pub velocity: Vec2,
+    /// Velocity of what is touched, relative to the particle.
+    pub way: Vec2,
 }
 
 /// Records of a step.
@@ -59,10 +59,20 @@ impl ContactRecorder {
 
     /// Notes a contact that was projected.
     #[inline(always)]
-    pub(crate) fn note(&mut self, p: &Particles, projected: impl FnOnce() -> Projected) {
+    pub(crate) fn note(&mut self, projected: impl FnOnce() -> Projected) {
         if self.is_on {
-            self.record(p, projected());
+            self.record(projected());
         }
+    }
+
+    /// Takes the records of another one.
+    pub(crate) fn append(&mut self, other: &mut Self) {
+        self.records.append(&mut other.records);
+    }
+
+    /// One without records, which notes what this one notes.
+    pub(crate) fn begin_like(&mut self, other: &Self) {
+        self.begin(other.is_on, other.h);
     }
 
     /// The records, by particle and by what it touched, in the order of the substeps.
@@ -71,38 +81,34 @@ impl ContactRecorder {
         &self.records
     }
 
-    fn record(&mut self, p: &Particles, projected: Projected) {
-        let Projected { particle, touched, normal, depth, weight, restitution, velocity } = projected;
-        let i = particle as usize;
-        let speed = (velocity - p.velocity(i)).dot(normal);
+    fn record(&mut self, projected: Projected) {
+        let Projected { particle, touched, point, normal, depth, weight, restitution, way } = projected;
+        let speed = way.dot(normal);
         // What bounces gets its speed of separation at once, see `apply_restitution`.
         let (stopped, bounced) = (depth / self.h, (1.0 + restitution) * speed);
         let impulse = ratio(if restitution > 0.0 && bounced > stopped { bounced } else { stopped }, weight);
-        let point = p.position(i) - normal * p.radius[i];
         self.records.push(ContactRecord { particle, touched, point, normal, speed, impulse });
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::line;
     use super::*;
 
     #[test]
     fn the_impulse_is_that_of_the_rebound_or_of_the_depth_whichever_is_greater() {
-        let mut p = line(3.0, [1.0, 1.0]);
-        let mut impulse = |speed: f32, restitution: f32, is_on: bool| {
-            p.vx[0] = -speed;
+        let impulse = |speed: f32, restitution: f32, is_on: bool| {
             let mut recorder = ContactRecorder::default();
             recorder.begin(is_on, 0.01);
-            recorder.note(&p, || Projected {
+            recorder.note(|| Projected {
                 particle: 0,
                 touched: Touched::Disc(1),
+                point: Vec2::ZERO,
                 normal: Vec2::X,
                 depth: 0.01,
                 weight: 0.5,
                 restitution,
-                velocity: Vec2::ZERO,
+                way: Vec2::new(speed, 0.0),
             });
             let records = recorder.sorted().iter().map(|record| (record.speed, record.impulse));
             records.collect::<Vec<_>>()

@@ -93,13 +93,26 @@ fn update<const L: usize>(p: &mut Columns<'_>, at: usize, max_speed: f32, keep: 
     store(p.vy, at, each::<L>(|l| vy[l] * keep));
 }
 
-/// Whether [`update_velocities`] is going to move anything back.
-#[inline(always)]
-pub(crate) fn exceeds_speed_limit(particles: &mut Columns<'_>, max_speed: f32, h: f32) -> bool {
-    let particles = &mut particles.even();
-    let (whole, end) = in_lanes(particles);
-    (0..whole).step_by(LANES).any(|at| exceeds::<LANES>(particles, at, max_speed * h))
-        || (whole..end).any(|at| exceeds::<1>(particles, at, max_speed * h))
+/// Whether [`update_velocities`] is going to move anything in these ranges back.
+pub(crate) fn exceed_speed_limit(
+    p: &mut Particles,
+    ranges: impl Iterator<Item = Range<usize>>,
+    dispatch: Dispatch,
+    max_speed: f32,
+    h: f32,
+) -> bool {
+    let exceeds = |mut chunk: Columns<'_>| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                let (chunk, longest) = (&mut chunk.even(), max_speed * h);
+                let (whole, end) = in_lanes(chunk);
+                (0..whole).step_by(LANES).any(|at| exceeds::<LANES>(chunk, at, longest))
+                    || (whole..end).any(|at| exceeds::<1>(chunk, at, longest))
+            },
+        )
+    };
+    parallel::map(p.columns().chunks(ranges, CHUNK), exceeds).contains(&true)
 }
 
 #[inline(always)]

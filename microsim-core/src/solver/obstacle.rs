@@ -43,16 +43,23 @@ pub(crate) fn project(
             let way = path.as_deref().map_or(Vec2::ZERO, |path| path.displacement(at));
             let (mu, restitution) = combine(particles.material[i], obstacle.material);
             if restitution > 0.0 || has_passed {
-                impacts.extend(Impact::on_surface(particles, contact.particle, -away, restitution, way / h));
+                impacts.extend(Impact::on_surface(
+                    contact.particle,
+                    particles.velocity(i),
+                    -away,
+                    restitution,
+                    way / h,
+                ));
             }
-            recorder.note(particles, || Projected {
+            recorder.note(|| Projected {
                 particle: contact.particle,
                 touched: Touched::Obstacle(contact.obstacle),
+                point: particles.position(i) - away * particles.radius[i],
                 normal: away,
                 depth,
                 weight: particles.inv_mass[i],
                 restitution,
-                velocity: way / h,
+                way: way / h - particles.velocity(i),
             });
             if let Some(path) = path {
                 let approach = (way - particles.velocity(i) * h).dot(away);

@@ -12,13 +12,14 @@
 //! nearest node, the one that the disc stands over more squarely (Baerentzen, Aanaes 2005, section 2: the sign at a vertex
 //! is that of an angle-weighted normal; in the plane it is that of the more orthogonal edge).
 
-use super::contact::{friction, moved, no_heavier, shift};
+use super::contact::{friction, no_heavier};
 use super::contact_record::{ContactRecorder, Projected, Touched};
 use super::lanes::ratio;
 use super::ring_relation::{Relation, Relations, RingNodes};
-use crate::collision::ring::{FoundLink, Link, RingContact, RingContacts};
+use crate::collision::ring::{FoundLink, Link, NodesOfRings, RingContact, RingContactList, RingContacts};
 use crate::instruction_set::Dispatch;
-use crate::particle::Particles;
+use crate::parallel;
+use crate::particle::{DisjointPositions, Particles, PositionCells};
 use glam::Vec2;
 
 /// Share of the contact distance below which [`keep_sides`] moves a disc away from a link by itself.
@@ -31,21 +32,60 @@ pub(crate) fn project(
     recorder: &mut ContactRecorder,
     dispatch: Dispatch,
 ) -> u32 {
-    dispatch.run(
-        #[inline(always)]
-        || {
-            let RingContacts { contacts, found, .. } = rings;
-            let (mut wrong, mut nodes) = (0, RingNodes::default());
-            for of_ring in contacts.chunk_by_mut(|a, b| a.ring == b.ring) {
-                nodes.read(found.nodes_of(of_ring[0].ring), p);
-                for contact in of_ring {
-                    let links = found.links_of(contact);
-                    wrong += u32::from(project_disc(contact, links, &mut nodes, p, recorder));
+    for_each_list(rings, p, recorder, |list, of, recorder, p| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                let (mut wrong, mut nodes) = (0, RingNodes::default());
+                for of_ring in list.contacts.chunk_by_mut(|a, b| a.ring == b.ring) {
+                    nodes.read(of.of(of_ring[0].ring), p);
+                    for contact in of_ring {
+                        let links = contact.links_in(list.links);
+                        wrong += u32::from(project_disc(contact, links, &mut nodes, p, recorder));
+                    }
                 }
-            }
-            wrong
-        },
-    )
+                wrong
+            },
+        )
+    })
+}
+
+/// The lists of a strip, and what comes of them.
+struct Part<'a> {
+    lists: Vec<RingContactList<'a>>,
+    recorder: ContactRecorder,
+    count: u32,
+}
+
+/// Does each list of contacts: those of a strip one after the other, strips as [`parallel::for_each_strip`] does, then the others.
+/// Returns the sum of what they give.
+fn for_each_list(
+    rings: &mut RingContacts,
+    p: &mut Particles,
+    recorder: &mut ContactRecorder,
+    work: impl Fn(&mut RingContactList<'_>, &NodesOfRings, &mut ContactRecorder, PositionCells<'_>) -> u32 + Send + Sync,
+) -> u32 {
+    let particles = p.len();
+    #[expect(unsafe_code, reason = "strips are disjoint, but their particles do not lie side by side")]
+    // SAFETY: a list of a strip has rings and discs of this strip and the next one, see `RingContacts::lists_mut`; a ring is in
+    // one strip, with all its nodes, and so is a disc. Every second strip has particles of its own, and these run at the same time.
+    let positions = unsafe { DisjointPositions::new(p.position_cells()) };
+    let (strips, others, nodes) = rings.lists_mut();
+    let part = |lists| {
+        let mut own = ContactRecorder::default();
+        own.begin_like(recorder);
+        Part { lists, recorder: own, count: 0 }
+    };
+    let (mut strips, mut others): (Vec<Part<'_>>, _) = (strips.into_iter().map(part).collect(), part(others));
+    let do_part = |part: &mut Part<'_>| {
+        let Part { lists, recorder, count } = part;
+        *count = lists.iter_mut().map(|list| work(list, nodes, recorder, positions.cells())).sum();
+    };
+    parallel::for_each_strip(strips.iter_mut(), particles, do_part);
+    do_part(&mut others);
+    strips.push(others);
+    strips.iter_mut().for_each(|part| recorder.append(&mut part.recorder));
+    strips.iter().map(|part| part.count).sum()
 }
 
 /// Pushes a disc and some links of a ring apart; returns whether the disc was on the wrong side.
@@ -54,7 +94,7 @@ fn project_disc(
     contact: &mut RingContact,
     links: &[FoundLink],
     nodes: &mut RingNodes,
-    p: &mut Particles,
+    p: PositionCells<'_>,
     recorder: &mut ContactRecorder,
 ) -> bool {
     let (disc, radius_sum) = (contact.particle as usize, contact.radius_sum);
@@ -95,26 +135,28 @@ pub(crate) fn gap(particle: u32, link: Link, p: &Particles) -> (u32, f32) {
 
 /// Last in a substep: a disc that is on the wrong side or nearly in the middle of a link moves away; the link stays. Discs
 /// that have touched no link in this substep cannot be there. Returns how many were on the wrong side.
-pub(crate) fn keep_sides(rings: &RingContacts, p: &mut Particles, dispatch: Dispatch) -> u32 {
-    dispatch.run(
-        #[inline(always)]
-        || {
-            let (mut wrong, mut nodes) = (0, RingNodes::default());
-            let mut read = usize::MAX;
-            for contact in rings.contacts.iter().filter(|contact| contact.is_close) {
-                if contact.ring != read {
-                    read = contact.ring;
-                    nodes.read(rings.found.nodes_of(read), p);
+pub(crate) fn keep_sides(rings: &mut RingContacts, p: &mut Particles, dispatch: Dispatch) -> u32 {
+    for_each_list(rings, p, &mut ContactRecorder::default(), |list, of, _, p| {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                let (mut wrong, mut nodes) = (0, RingNodes::default());
+                let mut read = usize::MAX;
+                for contact in list.contacts.iter().filter(|contact| contact.is_close) {
+                    if contact.ring != read {
+                        read = contact.ring;
+                        nodes.read(of.of(read), p);
+                    }
+                    wrong += u32::from(keep_side(contact, contact.links_in(list.links), &nodes, p));
                 }
-                wrong += u32::from(keep_side(contact, rings.found.links_of(contact), &nodes, p));
-            }
-            wrong
-        },
-    )
+                wrong
+            },
+        )
+    })
 }
 
 #[inline(always)]
-fn keep_side(contact: &RingContact, links: &[FoundLink], nodes: &RingNodes, p: &mut Particles) -> bool {
+fn keep_side(contact: &RingContact, links: &[FoundLink], nodes: &RingNodes, p: PositionCells<'_>) -> bool {
     let mut relations = Relations::unknown();
     if !touches_any(&mut relations, contact, links, nodes, p) {
         return false;
@@ -123,10 +165,10 @@ fn keep_side(contact: &RingContact, links: &[FoundLink], nodes: &RingNodes, p: &
     let i = contact.particle as usize;
     let standoff = STANDOFF * contact.radius_sum;
     let is_wrong = is_through(contact, nearest.link, &relation, links);
-    if p.inv_mass[i] > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
+    if p.inv_mass(i) > 0.0 && (is_wrong || relation.squared < standoff * standoff) {
         let length = relation.squared.sqrt();
         let direction = if is_wrong { -1.0 } else { 1.0 };
-        shift(p, i, relation.to_side(contact.side) * (standoff - direction * length));
+        p.shift(i, relation.to_side(contact.side) * (standoff - direction * length));
     }
     is_wrong
 }
@@ -138,7 +180,7 @@ fn touches_any(
     contact: &RingContact,
     links: &[FoundLink],
     nodes: &RingNodes,
-    p: &Particles,
+    p: PositionCells<'_>,
 ) -> bool {
     let (disc, limit, mut touches) = (contact.particle as usize, contact.radius_sum * contact.radius_sum, false);
     for found in links {
@@ -154,7 +196,7 @@ fn nearest_of(
     contact: &RingContact,
     links: &[FoundLink],
     nodes: &RingNodes,
-    p: &Particles,
+    p: PositionCells<'_>,
 ) -> (FoundLink, Relation) {
     let disc = contact.particle as usize;
     let mut best = (links[0], relations.to(links[0].place as usize, disc, nodes, p));
@@ -186,36 +228,37 @@ fn separate(
     link: Link,
     relation: &Relation,
     depth: f32,
-    p: &mut Particles,
+    p: PositionCells<'_>,
     recorder: &mut ContactRecorder,
 ) {
     let (i, a, b) = (contact.particle as usize, link.a as usize, link.b as usize);
     let normal = relation.to_side(contact.side);
     let (share_a, share_b) = (1.0 - relation.t, relation.t);
-    let (wi, wa, wb) = (p.inv_mass[i], p.inv_mass[a] * share_a, p.inv_mass[b] * share_b);
-    let wi = no_heavier(wi, p.inv_mass[a]);
+    let (wi, wa, wb) = (p.inv_mass(i), p.inv_mass(a) * share_a, p.inv_mass(b) * share_b);
+    let wi = no_heavier(wi, p.inv_mass(a));
     let weight = wi + wa * share_a + wb * share_b;
     let weights = [(i, wi), (a, -wa), (b, -wb)];
     let node = if relation.t < 0.5 { link.a } else { link.b };
-    recorder.note(p, || Projected {
+    recorder.note(|| Projected {
         particle: contact.particle,
         touched: Touched::Disc(node),
+        point: p.position(i) - normal * p.radius(i),
         normal,
         depth,
         weight,
         restitution: 0.0,
-        velocity: p.velocity(a) * share_a + p.velocity(b) * share_b,
+        way: p.velocity(a) * share_a + p.velocity(b) * share_b - p.velocity(i),
     });
     push(normal * ratio(depth, weight), weights, p);
     contact.touched = Some(node);
-    let slip = moved(p, i) - moved(p, a) * share_a - moved(p, b) * share_b;
+    let slip = p.moved(i) - p.moved(a) * share_a - p.moved(b) * share_b;
     push(friction(slip, normal, contact.friction * depth) * ratio(1.0, weight), weights, p);
 }
 
 /// Moves particles along `by`, each by its weight.
 #[inline(always)]
-fn push(by: Vec2, weights: [(usize, f32); 3], p: &mut Particles) {
-    weights.into_iter().for_each(|(i, weight)| shift(p, i, by * weight));
+fn push(by: Vec2, weights: [(usize, f32); 3], p: PositionCells<'_>) {
+    weights.into_iter().for_each(|(i, weight)| p.shift(i, by * weight));
 }
 
 #[cfg(test)]
@@ -256,7 +299,7 @@ mod tests {
                 let height = p.position(4).y - 0.5 * (p.position(0).y + p.position(1).y);
                 assert!((height * home - 2.0 * RADIUS).abs() < 1e-4, "owner {owner} at {y}: {height}");
                 assert!((momentum(&p) - before).length() < 1e-4);
-                assert!(contacts.contacts[0].touched.is_some());
+                assert!(contacts.iter().next().unwrap().0.touched.is_some());
             }
         }
     }
@@ -265,7 +308,7 @@ mod tests {
     fn prey_that_passes_stays_on_its_side_and_a_gate_lets_it_through() {
         for y in [0.3, -0.3] {
             let (mut p, mut contacts, _) = ring_and_disc(&square(), Vec2::new(2.0, y), 3);
-            assert_eq!(project(&mut contacts, &mut p) + keep_sides(&contacts, &mut p, Dispatch::default()), 0);
+            assert_eq!(project(&mut contacts, &mut p) + keep_sides(&mut contacts, &mut p, Dispatch::default()), 0);
             let height = p.position(4).y - 0.5 * (p.position(0).y + p.position(1).y);
             assert!(height * y > 0.0, "at {y}: {height}");
         }
@@ -287,10 +330,10 @@ mod tests {
     #[test]
     fn keeping_sides_moves_the_disc_and_not_the_link() {
         for (owner, y) in [(0, -0.2), (0, 0.1), (1, 0.2), (1, -0.1)] {
-            let (mut p, contacts, nodes) = ring_and_disc(&square(), Vec2::new(2.0, y), owner);
+            let (mut p, mut contacts, nodes) = ring_and_disc(&square(), Vec2::new(2.0, y), owner);
             let before: Vec<Vec2> = nodes.iter().map(|&i| p.position(i as usize)).collect();
             let home = if owner == 0 { 1.0 } else { -1.0 };
-            assert_eq!(keep_sides(&contacts, &mut p, Dispatch::default()), u32::from(y * home < 0.0));
+            assert_eq!(keep_sides(&mut contacts, &mut p, Dispatch::default()), u32::from(y * home < 0.0));
             assert!((p.position(4).y * home - STANDOFF * 2.0 * RADIUS).abs() < 1e-5, "{}", p.position(4));
             assert!(nodes.iter().zip(before).all(|(&i, at)| p.position(i as usize) == at));
         }
@@ -299,11 +342,11 @@ mod tests {
     #[test]
     fn what_is_farther_on_the_wrong_side_than_the_contact_distance_is_not_through() {
         let (p, contacts, _) = ring_and_disc(&square(), Vec2::new(2.0, -0.7), 0);
-        let links = contacts.found.links_of(&contacts.contacts[0]);
+        let (contact, links) = contacts.iter().next().unwrap();
         let relation = |found: &FoundLink| Relation::of(4, found.link, &p);
         let bottom = links.iter().find(|found| relation(found).squared < 0.5).unwrap();
         for (radius_sum, through) in [(0.6, false), (0.8, true), (2.0, true)] {
-            let mut contact = contacts.contacts[0].clone();
+            let mut contact = contact.clone();
             contact.radius_sum = radius_sum;
             assert_eq!(is_through(&contact, bottom.link, &relation(bottom), links), through, "at {radius_sum}");
         }
@@ -324,10 +367,10 @@ mod tests {
         ) {
             let at = Vec2::new(x, y);
             let (p, contacts, nodes) = ring_and_disc(&outline, at, 0);
-            prop_assume!(distance(&nodes, &p, at) > 1e-3 && !contacts.contacts.is_empty());
-            let contact = &contacts.contacts[0];
-            let links = contacts.found.links_of(contact).iter();
-            let relations = links.map(|found| Relation::of(contact.particle, found.link, &p));
+            let found = contacts.iter().next();
+            prop_assume!(distance(&nodes, &p, at) > 1e-3 && found.is_some());
+            let (contact, links) = found.unwrap();
+            let relations = links.iter().map(|found| Relation::of(contact.particle, found.link, &p));
             let relation = relations.reduce(|best, other| if other.is_nearer_than(&best) { other } else { best }).unwrap();
             prop_assert_eq!(relation.height() > 0.0, contains_point(&outline, at));
         }

@@ -3,7 +3,7 @@
 use super::lanes::{LANES, load, ratio};
 use crate::collision::ring::{FoundLink, Link, RingSide};
 use crate::instruction_set::each;
-use crate::particle::Particles;
+use crate::particle::{Particles, PositionCells};
 use glam::Vec2;
 
 /// Where a disc is with respect to a link.
@@ -105,13 +105,20 @@ pub(super) struct RingNodes {
 impl RingNodes {
     /// Reads where the nodes are.
     #[inline(always)]
-    pub(super) fn read(&mut self, nodes: &[u32], p: &Particles) {
+    pub(super) fn read(&mut self, nodes: &[u32], p: PositionCells<'_>) {
         let Self { origin_x, origin_y, x, y, count } = self;
         *count = nodes.len();
-        let columns: [(_, &[f32]); 4] = [(origin_x, &p.origin_x), (origin_y, &p.origin_y), (x, &p.x), (y, &p.y)];
-        for (own, column) in columns {
+        for own in [&mut *origin_x, origin_y, x, y] {
             own.clear();
-            own.extend(nodes.iter().map(|&node| column[node as usize]));
+        }
+        for &node in nodes {
+            let (origin, offset) = (p.origin(node as usize), p.offset(node as usize));
+            origin_x.push(origin.x);
+            origin_y.push(origin.y);
+            x.push(offset.x);
+            y.push(offset.y);
+        }
+        for own in [origin_x, origin_y, x, y] {
             while own.len() < nodes.len() + LANES {
                 let missing = nodes.len() + LANES - own.len();
                 own.extend_from_within(..missing.min(nodes.len()));
@@ -121,17 +128,17 @@ impl RingNodes {
 
     /// Notes where the nodes of a link are now.
     #[inline(always)]
-    pub(super) fn update(&mut self, FoundLink { link, place }: FoundLink, p: &Particles) {
+    pub(super) fn update(&mut self, FoundLink { link, place }: FoundLink, p: PositionCells<'_>) {
         let first = place as usize;
         self.set(first, link.a as usize, p);
         self.set(if first + 1 < self.count { first + 1 } else { 0 }, link.b as usize, p);
     }
 
     #[inline(always)]
-    fn set(&mut self, first: usize, node: usize, p: &Particles) {
-        let mut k = first;
+    fn set(&mut self, first: usize, node: usize, p: PositionCells<'_>) {
+        let (mut k, offset) = (first, p.offset(node));
         while k < self.x.len() {
-            (self.x[k], self.y[k]) = (p.x[node], p.y[node]);
+            (self.x[k], self.y[k]) = (offset.x, offset.y);
             k += self.count;
         }
     }
@@ -166,14 +173,14 @@ impl Relations {
 
     /// The squared distance of a disc from link `k`.
     #[inline(always)]
-    pub(super) fn squared(&mut self, k: usize, disc: usize, nodes: &RingNodes, p: &Particles) -> f32 {
+    pub(super) fn squared(&mut self, k: usize, disc: usize, nodes: &RingNodes, p: PositionCells<'_>) -> f32 {
         let lane = self.find(k, disc, nodes, p);
         self.squared[lane]
     }
 
     /// The relation of a disc to link `k`.
     #[inline(always)]
-    pub(super) fn to(&mut self, k: usize, disc: usize, nodes: &RingNodes, p: &Particles) -> Relation {
+    pub(super) fn to(&mut self, k: usize, disc: usize, nodes: &RingNodes, p: PositionCells<'_>) -> Relation {
         let lane = self.find(k, disc, nodes, p);
         Relation {
             t: self.t[lane],
@@ -185,7 +192,7 @@ impl Relations {
 
     /// The lane of link `k`, which is found first unless it is among the eight that are known.
     #[inline(always)]
-    fn find(&mut self, k: usize, disc: usize, nodes: &RingNodes, p: &Particles) -> usize {
+    fn find(&mut self, k: usize, disc: usize, nodes: &RingNodes, p: PositionCells<'_>) -> usize {
         let lane = k.wrapping_sub(self.first);
         if lane < LANES {
             return lane;
@@ -193,7 +200,8 @@ impl Relations {
         self.first = k;
         let RingNodes { origin_x, origin_y, x, y, .. } = nodes;
         let (along_x, along_y) = (along(origin_x, x, k), along(origin_y, y, k));
-        let (here_x, here_y) = ([p.origin_x[disc], p.x[disc]], [p.origin_y[disc], p.y[disc]]);
+        let (origin, offset) = (p.origin(disc), p.offset(disc));
+        let (here_x, here_y) = ([origin.x, offset.x], [origin.y, offset.y]);
         let (a_x, a_y) = (from_nodes(origin_x, x, k, here_x), from_nodes(origin_y, y, k, here_y));
         let (b_x, b_y) = (from_nodes(origin_x, x, k + 1, here_x), from_nodes(origin_y, y, k + 1, here_y));
         let place = each::<LANES>(|l| a_x[l] * along_x[l] + a_y[l] * along_y[l]);
@@ -270,18 +278,19 @@ mod tests {
             (particles.x[0], particles.origin_x[0]) = (particles.x[1], particles.origin_x[1]);
             (particles.y[0], particles.origin_y[0]) = (particles.y[1], particles.origin_y[1]);
             let mut nodes = RingNodes::default();
-            nodes.read(&ring, &particles);
+            nodes.read(&ring, particles.position_cells());
             particles.x[ring[0] as usize] += 0.5;
             nodes.update(
                 FoundLink { link: Link { a: ring[count - 1], b: ring[0] }, place: count as u32 - 1 },
-                &particles,
+                particles.position_cells(),
             );
             for particle in [stray, ring[2]] {
                 let mut relations = Relations::unknown();
                 for k in 0..count {
                     let link = Link { a: ring[k], b: ring[(k + 1) % count] };
                     let alone = Relation::of(particle, link, &particles);
-                    assert_eq!(relations.to(k, particle as usize, &nodes, &particles), alone, "link {k} of {count}");
+                    let found = relations.to(k, particle as usize, &nodes, particles.position_cells());
+                    assert_eq!(found, alone, "link {k} of {count}");
                 }
             }
         }

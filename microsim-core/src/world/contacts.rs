@@ -3,7 +3,7 @@
 use super::World;
 use super::obstacle::WALLS;
 use crate::collision::broad_phase::SearchInput;
-use crate::collision::ring::{Link, Ring, RingContact};
+use crate::collision::ring::{FoundLink, Link, Ring, RingContact};
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::collision::{Contact, Mobility};
 use crate::event::Event;
@@ -68,10 +68,17 @@ pub(crate) fn bound_driven_discs<'a>(
             _ => continue,
         };
         let sides = [contact.i, contact.j];
-        if is_heavy(particles, sides[disc], sides[on]) && is_driven(sides[disc]) {
+        let inv_mass = sides.map(|i| particles.inv_mass[i as usize]);
+        if is_heavy(inv_mass[disc], inv_mass[on]) && is_driven(sides[disc]) {
             contact.mobility[disc] = Mobility::Bounded;
         }
     }
+}
+
+/// The links near a disc, one pair each.
+fn near_links<'a>(contact: &RingContact, links: &'a [FoundLink]) -> impl Iterator<Item = Near> + Clone + use<'a> {
+    let RingContact { particle: i, touched, .. } = *contact;
+    links.iter().map(move |found| Near::DiscAndLink { i, link: found.link, touched })
 }
 
 impl World {
@@ -113,7 +120,7 @@ impl World {
     pub(crate) fn near(&self) -> impl Iterator<Item = Near> + '_ {
         let found = &self.scratch.broad_phase;
         let discs = found.contacts.iter().map(Near::discs);
-        discs.chain(found.ring_contacts.contacts.iter().flat_map(|contact| self.near_links(contact)))
+        discs.chain(found.ring_contacts.iter().flat_map(|(contact, links)| near_links(contact, links)))
     }
 
     /// The same of different owners only, who are looked up once for all links near a disc.
@@ -121,17 +128,10 @@ impl World {
         let found = &self.scratch.broad_phase;
         let others = |near: Near| Some(near.owners(&self.particles)).filter(|[a, b]| a != b);
         let discs = found.contacts.iter().map(Near::discs).filter_map(move |near| Some((others(near)?, near)));
-        let contacts = found.ring_contacts.contacts.iter();
-        let near_rings = contacts.filter_map(move |contact| Some((others(self.near_links(contact).next()?)?, contact)));
-        let links = near_rings.flat_map(|(owners, contact)| self.near_links(contact).map(move |near| (owners, near)));
+        let near_rings = found.ring_contacts.iter().map(|(contact, links)| near_links(contact, links));
+        let of_others = near_rings.filter_map(move |near| Some((others(near.clone().next()?)?, near)));
+        let links = of_others.flat_map(|(owners, near)| near.map(move |near| (owners, near)));
         discs.chain(links)
-    }
-
-    /// The links near a disc, one pair each.
-    fn near_links(&self, contact: &RingContact) -> impl Iterator<Item = Near> + '_ {
-        let RingContact { particle: i, touched, .. } = *contact;
-        let links = self.scratch.broad_phase.ring_contacts.found.links_of(contact).iter();
-        links.map(move |found| Near::DiscAndLink { i, link: found.link, touched })
     }
 
     /// Measures what was found, if both particles are still those that were found.

@@ -62,11 +62,11 @@ use crate::solver::block::Block;
 use crate::solver::contact::Impact;
 use crate::solver::contact_record::ContactRecorder;
 use crate::solver::contraction::Contraction;
+use crate::solver::disc_contacts::DiscContacts;
 use crate::solver::drive::{Drive, Tow, Traction};
 use crate::solver::fluid::{self, Fluid};
 use crate::solver::force::Forces;
 use crate::solver::joint::Joints;
-use crate::solver::relink::Pressed;
 use crate::supply::Drain;
 use crate::template::Template;
 use crate::template::projection::Projection;
@@ -159,7 +159,7 @@ pub(crate) struct Scratch {
     /// The handle of each of these joints.
     pub joined: Vec<Handle>,
     pub impacts: Vec<Impact>,
-    pub pressed: Pressed,
+    pub disc_contacts: DiscContacts,
     pub contact_records: ContactRecorder,
     pub occupancy: Occupancy,
     pub vacancies: Vacancies,

@@ -263,3 +263,20 @@ fn what_moves_near_an_image_of_a_sleeper_wakes_its_block_and_no_other() {
         assert_eq!([0, 1, 2].map(|block| sleep.is_asleep(block)), [true, false, is_fluid], "fluid: {is_fluid}");
     }
 }
+
+#[test]
+fn every_second_strip_has_discs_of_its_own() {
+    let mut particles = random_discs(3, 400);
+    particles.fluid.fill(0);
+    particles.next_in_ring.fill(NO_OWNER);
+    let mut broad = BroadPhase::default();
+    broad.find_pairs(search_input(&particles, &Exemptions::default(), LIMITS), &mut Sleep::default(), 1);
+    let discs = |list: &mut [Contact]| list.iter().flat_map(|contact| [contact.i, contact.j]).collect::<BTreeSet<_>>();
+    let mut strips: Vec<_> = broad.contacts.lists_mut().map(discs).collect();
+    // The last list is that of large bodies.
+    strips.pop();
+    assert!(strips.windows(2).any(|pair| !pair[0].is_disjoint(&pair[1])), "no strip has to do with the next");
+    for (k, strip) in strips.iter().enumerate() {
+        assert!(strips[k + 1..].iter().skip(1).step_by(2).all(|other| strip.is_disjoint(other)), "strip {k}");
+    }
+}
