@@ -64,6 +64,19 @@ pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send 
     parts.into_iter().map(work).collect()
 }
 
+/// Does two things that share nothing.
+pub(crate) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    #[cfg(feature = "parallel")]
+    if is_inside() {
+        let one = || with_default_float_environment(one);
+        let other = || with_default_float_environment(other);
+        with_default_float_environment(|| rayon::join(one, other));
+        return;
+    }
+    one();
+    other();
+}
+
 /// Does work that has no parts. If it is on many particles, another thread spins meanwhile, because to wake it up takes longer
 /// than many parts take. The work must not use the pool.
 pub(crate) fn serial(particles: usize, work: impl FnOnce() + Send) {

@@ -12,8 +12,7 @@ use crate::solver::block::Block;
 use crate::solver::disc_contacts::LinkedBlocks;
 use crate::solver::membrane::{self, Membrane};
 use crate::solver::{
-    block, contact, contraction, drive, integrate, obstacle, ring_contact, speed_limit, strays, stretch_damping,
-    untangle,
+    block, contact, contraction, drive, integrate, obstacle, repair, ring_contact, speed_limit, stretch_damping,
 };
 use crate::world::contacts::bound_driven_discs;
 use crate::world::{Scratch, World, count};
@@ -319,15 +318,11 @@ fn damp_stretching(world: &mut World) {
     }
 }
 
-/// The last resort of membranes: untangles those that cross themselves, and returns discs that a ray finds on the wrong side.
 fn repair_membranes(world: &mut World) {
     let World { config, particles, organisms, guard, scratch, .. } = world;
-    let (mut outline, mut midpoints) = (Vec::new(), untangle::Midpoints::default());
-    for (place, ring) in organisms.rings().enumerate().filter(|_| config.protects_membranes) {
-        count(&mut guard.net_fired, untangle::untangle(ring.nodes, particles, &mut outline, &mut midpoints));
-        let contacts = &scratch.broad_phase.ring_contacts;
-        let caught = strays::catch_strays(ring, place, &outline, contacts, particles);
-        count(&mut guard.net_fired, caught);
+    if config.protects_membranes {
+        let rings: Vec<_> = organisms.rings().collect();
+        count(&mut guard.net_fired, repair::repair_rings(&rings, &scratch.broad_phase.ring_contacts, particles));
     }
 }
 

@@ -84,33 +84,19 @@ impl BroadPhase {
         }
         let sleep = &*sleep;
         self.bodies.make_discs(input.blocks, input.particles, sleep);
-        let Self { contacts, bodies, membranes, fluid, fluid_changes, images, .. } = self;
-        let contacts = contacts.get_mut_or(Contacts::blank);
-        contacts.clear();
-        let Contacts { strips, others } = contacts;
-        let SearchInput { particles, exemptions, limits, .. } = input;
-        let filter = PairFilter { particles, exemptions, sleep, longest: limits.substep };
-        bodies.pairs(filter, strips, others);
-        let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, input));
-        membranes.pairs(&mut consider);
-        if !fluid.is_empty() {
-            bodies.pairs_with(fluid, input.particles, &mut consider);
-        }
-        if input.rings.is_empty() {
-            bodies.pairs_with(membranes, input.particles, &mut consider);
-            for node in membranes.iter() {
-                fluid.near(node).for_each(|other| consider(node, other));
-            }
-        }
-        if fluid_changes.find(fluid, input.particles) {
-            fluid_changes.pairs(fluid, input.particles, consider);
-        }
-        if let Some(images) = *images {
-            bodies.pairs_across(&images, filter, others);
-            fluid_across(bodies, fluid, &images, input, others);
-        }
+        let Self { contacts, ring_contacts, bodies, membranes, fluid, fluid_changes, images, .. } = self;
+        let (contacts, bodies) = (contacts.get_mut_or(Contacts::blank), &*bodies);
+        let filter = PairFilter {
+            particles: input.particles,
+            exemptions: input.exemptions,
+            sleep,
+            longest: input.limits.substep,
+        };
+        parallel::join(
+            || find_contacts(contacts, bodies, [membranes, fluid], fluid_changes, *images, filter, input),
+            || find_ring_contacts(ring_contacts, bodies, [membranes, fluid], input),
+        );
         self.find_obstacle_contacts(input, sleep);
-        self.find_ring_contacts(input);
     }
 
     /// Finds the pairs of bodies that may exceed their speculative margin with another displacement of `next`: in the present
@@ -153,16 +139,6 @@ impl BroadPhase {
         }
     }
 
-    fn find_ring_contacts(&mut self, input: SearchInput<'_>) {
-        let Self { ring_contacts, bodies, membranes, fluid, .. } = self;
-        let SearchInput { particles, exemptions, containments, rings, limits, dispatch, .. } = input;
-        let disc_grids = [&*membranes, &*fluid];
-        ring_contacts.get_mut_or(|_| RingContacts::default()).find(
-            rings,
-            RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * limits.step, dispatch },
-        );
-    }
-
     /// Pairs of particles that have touched since they were found; of a link, the nearer node.
     pub(crate) fn touched(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
         let discs = self.contacts.iter().filter(|contact| contact.touched).map(|contact| (contact.i, contact.j));
@@ -185,11 +161,11 @@ impl BroadPhase {
                 _ => fluid.found.push(disc),
             }
         }
-        parallel::serial(p.len(), || {
+        let bodies_and_membranes = || {
             bodies.sort(size);
             membranes.sort(size);
-            fluid.sort(size);
-        });
+        };
+        parallel::join(bodies_and_membranes, || fluid.sort(size));
         self.images = (!period.is_none()).then(|| self.images_in(period));
     }
 
@@ -258,6 +234,53 @@ impl BroadPhase {
         let contacts = if is_sensor { sensor_contacts } else { obstacle_contacts };
         contacts.extend(near.map(|disc| ObstacleContact { particle: disc.index, obstacle, shift }));
     }
+}
+
+/// Finds the contacts of discs.
+fn find_contacts(
+    contacts: &mut Contacts,
+    bodies: &Bodies,
+    [membranes, fluid]: [&DiscGrid; 2],
+    fluid_changes: &mut FluidChanges,
+    images: Option<Images>,
+    filter: PairFilter<'_>,
+    input: SearchInput<'_>,
+) {
+    contacts.clear();
+    let Contacts { strips, others } = contacts;
+    bodies.pairs(filter, strips, others);
+    let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, input));
+    membranes.pairs(&mut consider);
+    if !fluid.is_empty() {
+        bodies.pairs_with(fluid, input.particles, &mut consider);
+    }
+    if input.rings.is_empty() {
+        bodies.pairs_with(membranes, input.particles, &mut consider);
+        for node in membranes.iter() {
+            fluid.near(node).for_each(|other| consider(node, other));
+        }
+    }
+    if fluid_changes.find(fluid, input.particles) {
+        fluid_changes.pairs(fluid, input.particles, consider);
+    }
+    if let Some(images) = images {
+        bodies.pairs_across(&images, filter, others);
+        fluid_across(bodies, fluid, &images, input, others);
+    }
+}
+
+/// Finds the contacts of discs with links of rings.
+fn find_ring_contacts(
+    ring_contacts: &mut Shared<RingContacts>,
+    bodies: &Bodies,
+    disc_grids: [&DiscGrid; 2],
+    input: SearchInput<'_>,
+) {
+    let SearchInput { particles, exemptions, containments, rings, limits, dispatch, .. } = input;
+    ring_contacts.get_mut_or(|_| RingContacts::default()).find(
+        rings,
+        RingQuery { particles, exemptions, containments, bodies, disc_grids, margin: 2.0 * limits.step, dispatch },
+    );
 }
 
 /// Adds the contacts of fluid with images of bodies, and of other fluid.

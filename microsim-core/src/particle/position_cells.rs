@@ -68,12 +68,17 @@ impl PositionCells<'_> {
         self.radius[i]
     }
 
+    /// Puts particle `i` somewhere else, relative to its origin.
+    #[inline(always)]
+    pub(crate) fn set_offset(&self, i: usize, to: Vec2) {
+        self.x[i].set(to.x);
+        self.y[i].set(to.y);
+    }
+
     /// Moves particle `i`.
     #[inline(always)]
     pub(crate) fn shift(&self, i: usize, by: Vec2) {
-        let [x, y] = [&self.x[i], &self.y[i]];
-        x.set(x.get() + by.x);
-        y.set(y.get() + by.y);
+        self.set_offset(i, self.offset(i) + by);
     }
 }
 

@@ -19,16 +19,17 @@ pub(crate) mod membrane;
 pub(crate) mod muscle;
 pub(crate) mod obstacle;
 mod relink;
+pub(crate) mod repair;
 pub(crate) mod ring_contact;
 mod ring_lanes;
 mod ring_relation;
 pub(crate) mod speed_limit;
-pub(crate) mod strays;
+mod strays;
 pub(crate) mod stretch_damping;
 mod sweep;
 #[cfg(test)]
 pub(crate) mod testing;
-pub(crate) mod untangle;
+mod untangle;
 pub(crate) mod yielding;
 
 /// The factor that brings a vector of this squared length down to `longest`; 1 if it is not longer.

@@ -11,7 +11,9 @@
 use super::constraint::MeasuredRing;
 use super::lanes::{LANES, Pair, Span, add, load, ratio};
 use crate::instruction_set::{Dispatch, each};
-use crate::particle::{Columns, Particles};
+use crate::parallel;
+use crate::particle::{Columns, DisjointPositions, Particles, PositionCells};
+use glam::Vec2;
 
 /// Strides of bending.
 pub(super) const STRIDES: [usize; 2] = [2, 1];
@@ -30,6 +32,8 @@ const AREA_COMPLIANCE: f32 = 1e-4;
 
 /// Rings from which on gathering them takes less time than it saves.
 const FEWEST: usize = 3;
+/// Rings that a thread projects at a time, a fixed number whatever the number of threads.
+const PORTION: usize = 4 * LANES;
 
 /// A ring, and what its projection aims at.
 #[derive(Clone, Copy, Debug)]
@@ -76,23 +80,28 @@ struct Gathered {
 /// One substep's projection of rings that share no node.
 pub(super) fn project(mut rings: Vec<RingTarget<'_>>, particles: &mut Particles, h: f32, dispatch: Dispatch) {
     rings.sort_by_key(|target| target.ring.len());
-    let mut gathered = Gathered::default();
-    for of_size in rings.chunk_by(|a, b| a.ring.len() == b.ring.len()) {
-        let slots: Vec<u32> = (0..of_size[0].ring.len() as u32).collect();
-        for members in of_size.chunks(LANES) {
+    let of_sizes = rings.chunk_by(|a, b| a.ring.len() == b.ring.len());
+    if !parallel::is_large(particles.len()) {
+        let mut gathered = Gathered::default();
+        for members in of_sizes.flat_map(|of_size| of_size.chunks(LANES)) {
             if members.len() < FEWEST {
                 members.iter().for_each(|target| project_alone(target, particles, h, dispatch));
-                continue;
+            } else {
+                gathered.project(members, particles.position_cells(), h, dispatch);
             }
-            gathered.gather(members, particles);
-            let targets = Targets::<LANES>::of(members);
-            dispatch.run(
-                #[inline(always)]
-                || targets.project(&slots, &Span { base: 0, scale: [1.0; LANES] }, &mut gathered.parts(), h),
-            );
-            gathered.scatter(members, particles);
         }
+        return;
     }
+    #[expect(unsafe_code, reason = "rings are disjoint, but their nodes do not lie side by side")]
+    // SAFETY: a ring is in one portion, and no node is in two rings.
+    let positions = unsafe { DisjointPositions::new(particles.position_cells()) };
+    let portions = of_sizes.flat_map(|of_size| of_size.chunks(PORTION)).collect();
+    parallel::for_each(portions, |rings: &[RingTarget<'_>]| {
+        let mut gathered = Gathered::default();
+        for members in rings.chunks(LANES) {
+            gathered.project(members, positions.cells(), h, dispatch);
+        }
+    });
 }
 
 /// The same for one ring where it lies.
@@ -219,19 +228,31 @@ fn bend<const L: usize>(
 }
 
 impl Gathered {
-    fn gather(&mut self, rings: &[RingTarget<'_>], particles: &mut Particles) {
+    /// One substep's projection of up to eight rings of as many nodes.
+    fn project(&mut self, rings: &[RingTarget<'_>], p: PositionCells<'_>, h: f32, dispatch: Dispatch) {
+        self.gather(rings, p);
+        let slots: Vec<u32> = (0..rings[0].ring.len() as u32).collect();
+        let targets = Targets::<LANES>::of(rings);
+        dispatch.run(
+            #[inline(always)]
+            || targets.project(&slots, &Span { base: 0, scale: [1.0; LANES] }, &mut self.parts(), h),
+        );
+        self.scatter(rings, p);
+    }
+
+    fn gather(&mut self, rings: &[RingTarget<'_>], p: PositionCells<'_>) {
         let count = rings[0].ring.len() * LANES;
         let Self { origin_x, origin_y, x, y, inv_mass, stiffness } = self;
-        let p = &particles.columns();
-        let columns =
-            [(origin_x, &*p.origin_x), (origin_y, &*p.origin_y), (x, &*p.x), (y, &*p.y), (inv_mass, p.inv_mass)];
-        for (gathered, column) in columns {
+        for gathered in [&mut *origin_x, origin_y, x, y, inv_mass] {
             gathered.clear();
             gathered.resize(count, 0.0);
-            for (target, lane) in rings.iter().zip(0..) {
-                for (slot, &node) in gathered.chunks_exact_mut(LANES).zip(target.ring) {
-                    slot[lane] = column[node as usize];
-                }
+        }
+        for (target, lane) in rings.iter().zip(0..) {
+            for (slot, &node) in target.ring.iter().enumerate() {
+                let (at, node) = (slot * LANES + lane, node as usize);
+                (origin_x[at], origin_y[at]) = p.origin(node).into();
+                (x[at], y[at]) = p.offset(node).into();
+                inv_mass[at] = p.inv_mass(node);
             }
         }
         stiffness.clear();
@@ -254,13 +275,11 @@ impl Gathered {
     }
 
     /// Puts the nodes back where they came from.
-    fn scatter(&self, rings: &[RingTarget<'_>], particles: &mut Particles) {
-        let p = particles.columns();
-        for (gathered, column) in [(&self.x, p.x), (&self.y, p.y)] {
-            for (target, lane) in rings.iter().zip(0..) {
-                for (slot, &node) in gathered.chunks_exact(LANES).zip(target.ring) {
-                    column[node as usize] = slot[lane];
-                }
+    fn scatter(&self, rings: &[RingTarget<'_>], p: PositionCells<'_>) {
+        for (target, lane) in rings.iter().zip(0..) {
+            for (slot, &node) in target.ring.iter().enumerate() {
+                let at = slot * LANES + lane;
+                p.set_offset(node as usize, Vec2::new(self.x[at], self.y[at]));
             }
         }
     }
@@ -271,7 +290,6 @@ mod tests {
     use super::super::testing::disc;
     use super::*;
     use crate::rng::Rng;
-    use glam::Vec2;
 
     /// Rings of `count` nodes that are far from round, some of them without all of their stiffness.
     fn crooked(count: usize, rings: usize, rng: &mut Rng) -> (Particles, Vec<Vec<u32>>, Vec<Vec<f32>>) {

@@ -17,18 +17,29 @@ pub(crate) fn catch_strays(
     rings: &RingContacts,
     p: &mut Particles,
 ) -> u32 {
-    // Such a ring is about to be frozen.
-    if !outline.iter().all(|at| at.is_finite()) {
-        return 0;
-    }
     let mut count = 0;
-    for contact in rings.of_ring(place) {
+    for contact in near(rings, place, outline) {
         if is_across(contact, outline, p) {
             count += 1;
             return_to_side(contact, ring, outline, p);
         }
     }
     count
+}
+
+/// Whether [`catch_strays`] would find any.
+pub(crate) fn has_strays(place: usize, outline: &[Vec2], rings: &RingContacts, p: &Particles) -> bool {
+    near(rings, place, outline).any(|contact| is_across(contact, outline, p))
+}
+
+/// The discs near a ring; none if it is about to be frozen.
+fn near<'a>(
+    rings: &'a RingContacts,
+    place: usize,
+    outline: &[Vec2],
+) -> impl Iterator<Item = &'a RingContact> + use<'a> {
+    let is_finite = outline.iter().all(|at| at.is_finite());
+    is_finite.then(|| rings.of_ring(place)).into_iter().flatten()
 }
 
 /// Whether a ray finds a disc on the wrong side of a whole ring.

@@ -20,21 +20,16 @@ const ROUNDS: usize = 4;
 /// Straightens the ring between each two links that cross, a few links apart. Leaves in `outline` where its nodes are, and
 /// returns the number of crossings. `midpoints` is scratch.
 pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>, midpoints: &mut Midpoints) -> u32 {
-    // The way between the two links that cross is the shorter one.
-    let farthest = FARTHEST.min((ring.len() / 2).saturating_sub(1));
     let mut crossings = 0;
-    read(ring, p, outline);
-    midpoints.read(outline);
+    read(ring, p, outline, midpoints);
     for _ in 0..ROUNDS {
         let before = crossings;
         for first in 0..ring.len() {
-            let last = if midpoints.any_near(first, farthest) { farthest } else { farthest.min(1) };
-            if let Some(apart) = (1..=last).find(|&apart| cross(outline, first, apart))
+            if let Some(apart) = crossed_by(outline, midpoints, first)
                 && straighten(ring, first, apart + 1, p)
             {
                 crossings += 1;
-                read(ring, p, outline);
-                midpoints.read(outline);
+                read(ring, p, outline, midpoints);
             }
         }
         if crossings == before {
@@ -44,9 +39,24 @@ pub(crate) fn untangle(ring: &[u32], p: &mut Particles, outline: &mut Vec<Vec2>,
     crossings
 }
 
-fn read(ring: &[u32], p: &Particles, outline: &mut Vec<Vec2>) {
+/// Whether [`untangle`] would find a crossing. Leaves in `outline` where the nodes are.
+pub(crate) fn is_tangled(ring: &[u32], p: &Particles, outline: &mut Vec<Vec2>, midpoints: &mut Midpoints) -> bool {
+    read(ring, p, outline, midpoints);
+    (0..ring.len()).any(|first| crossed_by(outline, midpoints, first).is_some())
+}
+
+fn read(ring: &[u32], p: &Particles, outline: &mut Vec<Vec2>, midpoints: &mut Midpoints) {
     outline.clear();
     outline.extend(ring.iter().map(|&node| p.position(node as usize)));
+    midpoints.read(outline);
+}
+
+/// How many links later the first one comes that a link crosses, if one does.
+fn crossed_by(outline: &[Vec2], midpoints: &Midpoints, first: usize) -> Option<usize> {
+    // The way between the two links that cross is the shorter one.
+    let farthest = FARTHEST.min((outline.len() / 2).saturating_sub(1));
+    let last = if midpoints.any_near(first, farthest) { farthest } else { farthest.min(1) };
+    (1..=last).find(|&apart| cross(outline, first, apart))
 }
 
 /// The middle of each link, and of the first ones once more after the last, so that the next links lie side by side.

@@ -166,6 +166,17 @@ pub(crate) struct Scratch {
     pub query_index: QueryIndex,
 }
 
+impl Scratch {
+    /// Takes over the pairs that another world's search found, and forgets the rest.
+    fn share_pairs_of(&mut self, other: &Self) {
+        self.broad_phase.share_pairs_of(&other.broad_phase);
+        self.occupancy.clear();
+        self.vacancies.clear();
+        self.query_index.clear();
+        self.query_index.clear_obstacles();
+    }
+}
+
 impl Clone for World {
     fn clone(&self) -> Self {
         let mut clone = Self::of(self.config.clone(), self.obstacles.clone());
@@ -224,11 +235,7 @@ impl Clone for World {
         self.projections.clone_from(projections);
         self.obstacles.clone_from(obstacles);
         self.changes.clone_from(changes);
-        self.scratch.broad_phase.share_pairs_of(&scratch.broad_phase);
-        self.scratch.occupancy.clear();
-        self.scratch.vacancies.clear();
-        self.scratch.query_index.clear();
-        self.scratch.query_index.clear_obstacles();
+        self.scratch.share_pairs_of(scratch);
         self.dispatch = *dispatch;
     }
 }
