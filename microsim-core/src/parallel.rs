@@ -42,6 +42,29 @@ pub(crate) fn map<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Send 
     parts.into_iter().map(work).collect()
 }
 
+/// Does each part, and then finishes it, in their order, by changing what they share. Alone, a thread finishes a part at once, while
+/// all that it needs is in the cache: so what is done with a part must not depend on others that are finished.
+pub(crate) fn for_each_then<S: Sync, T: Send>(
+    shared: &mut S,
+    parts: Vec<T>,
+    work: impl Fn(&S, &mut T) + Send + Sync,
+    mut finish: impl FnMut(&mut S, T),
+) {
+    #[cfg(feature = "parallel")]
+    if parts.len() > 1 && is_inside() {
+        let found = &*shared;
+        let work = |mut part| {
+            work(found, &mut part);
+            part
+        };
+        return map(parts, work).into_iter().for_each(|part| finish(shared, part));
+    }
+    for mut part in parts {
+        work(shared, &mut part);
+        finish(shared, part);
+    }
+}
+
 /// Does work that has no parts. If it is on many particles, another thread spins meanwhile, because to wake it up takes longer
 /// than many parts take. The work must not use the pool.
 pub(crate) fn serial(particles: usize, work: impl FnOnce() + Send) {
@@ -86,6 +109,19 @@ fn is_inside() -> bool {
 mod tests {
     use super::*;
     use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    #[test]
+    fn parts_are_finished_in_their_order() {
+        let finished = || {
+            let mut shared = Vec::new();
+            let work = |_: &Vec<usize>, part: &mut usize| *part *= *part;
+            for_each_then(&mut shared, (0..100).collect(), work, Vec::push);
+            shared
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        let expected: Vec<usize> = (0..100).map(|k| k * k).collect();
+        assert_eq!((finished(), pool.install(finished)), (expected.clone(), expected));
+    }
 
     #[test]
     fn work_that_panics_keeps_no_thread_waiting() {

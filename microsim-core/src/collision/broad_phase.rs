@@ -103,7 +103,7 @@ impl BroadPhase {
             }
         }
         if fluid_changes.find(fluid, input.particles) {
-            fluid_changes.pairs(fluid, input.particles, consider);
+            fluid_changes.pairs(fluid, consider);
         }
         if let Some(images) = *images {
             bodies.pairs_across(&images, filter, others);
@@ -178,8 +178,8 @@ impl BroadPhase {
         fluid.found.clear();
         bodies.collect(blocks, p, sleep, limits, margins, dispatch);
         let columns = DiscColumns::of(p);
-        let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for (i, disc) in loose.filter_map(|i| columns.disc(i, limits.step).map(|disc| (i, disc))) {
+        for i in outside_of(blocks.iter().copied(), p.len()).flatten() {
+            let Some(disc) = columns.disc(i, limits.step) else { continue };
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),

@@ -5,7 +5,7 @@ use super::bodies::Bodies;
 use super::combine;
 use super::disc_grid::{Disc, DiscGrid};
 use super::exemptions::Exemptions;
-use super::link_group::LinkGroup;
+use super::link_group::{Lanes, LinkGroup, Node, finite};
 use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::{LANES, Particles};
@@ -105,6 +105,8 @@ struct Hit {
 pub(crate) struct RingContacts {
     /// Those of a ring lie side by side.
     pub contacts: Vec<RingContact>,
+    /// Where those of each ring begin, and where the last ones end.
+    starts: Vec<usize>,
     pub found: FoundLinks,
     /// The ring that each particle is a node of, by particle.
     ring_of: Vec<u32>,
@@ -116,10 +118,17 @@ pub(crate) struct RingContacts {
 struct Search {
     contacts: Vec<RingContact>,
     links: Vec<FoundLink>,
-    /// Links of a ring, discs in its box, and which of these are near which links.
+    /// Where the contacts of each ring end.
+    ends: Vec<usize>,
+    /// A ring and its links, discs in its box, and which of these are near which links.
+    nodes: Vec<Node>,
     groups: Vec<LinkGroup>,
     discs: Vec<Disc>,
+    rows: Vec<Range<usize>>,
     hits: Vec<Hit>,
+    /// Discs and groups whose boxes overlap, by their places, and what [`LinkGroup::squared_distances`] finds for them.
+    candidates: Vec<(u32, u32)>,
+    squared: Vec<Lanes>,
 }
 
 /// The links near discs, and the rings that they are of.
@@ -172,23 +181,24 @@ pub(super) struct RingQuery<'a> {
 impl RingContacts {
     /// The contacts of the ring in this place, which lie side by side.
     pub(crate) fn of_ring(&self, place: usize) -> &[RingContact] {
-        let first = self.contacts.partition_point(|contact| contact.ring < place);
-        let count = self.contacts[first..].partition_point(|contact| contact.ring == place);
-        &self.contacts[first..first + count]
+        self.starts.get(place..place + 2).map_or(&[], |ends| &self.contacts[ends[0]..ends[1]])
     }
 
     /// Finds the discs near some rings.
     pub(super) fn find(&mut self, rings: &[Ring<'_>], near: RingQuery<'_>) {
         self.note_nodes(rings, near.particles.len());
-        let Self { contacts, found, ring_of, searches } = self;
+        let Self { contacts, starts, found, ring_of, searches } = self;
         contacts.clear();
         found.clear();
+        starts.clear();
+        starts.push(0);
         searches.resize_with(rings.len().div_ceil(PORTION), Search::default);
         let portions = rings.chunks(PORTION).zip(&mut *searches).zip((0..).step_by(PORTION)).collect();
         parallel::for_each(portions, |((rings, search), first): ((&[Ring<'_>], &mut Search), usize)| {
             search.find(rings, first, ring_of, near);
         });
         for search in searches {
+            starts.extend(search.ends.drain(..).map(|end| contacts.len() + end));
             let first = found.links.len() as u32;
             found.links.append(&mut search.links);
             let moved = |links: Range<u32>| links.start + first..links.end + first;
@@ -216,40 +226,75 @@ impl Search {
         for (ring, place) in rings.iter().zip(first..) {
             self.find_near(*ring, place as u32, ring_of, near);
             self.add_contacts(*ring, place, near);
+            self.ends.push(self.contacts.len());
         }
     }
 
     /// Finds the links of one ring that each disc is near to.
     fn find_near(&mut self, ring: Ring<'_>, place: u32, ring_of: &[u32], near: RingQuery<'_>) {
-        let Self { groups, discs, hits, .. } = self;
-        let p = near.particles;
-        let link = |k: usize| {
-            let Link { a, b } = ring.link(k);
-            ([a, b].map(|node| p.position(node as usize)), p.radius[a as usize] + 0.5 * near.margin)
-        };
-        let count = ring.nodes.len();
+        self.read_links(ring, near);
+        self.gather_discs(place, ring_of, near);
+        self.find_hits(near.dispatch);
+    }
+
+    fn read_links(&mut self, ring: Ring<'_>, near: RingQuery<'_>) {
+        let Self { nodes, groups, .. } = self;
+        let (p, count) = (near.particles, ring.nodes.len());
+        let node = |&i: &u32| Node { at: p.position(i as usize), half_width: p.radius[i as usize] + 0.5 * near.margin };
+        nodes.clear();
+        nodes.extend(ring.nodes.iter().chain(ring.nodes.first()).map(node));
         groups.clear();
-        groups.extend((0..count).step_by(LANES).map(|first| LinkGroup::of(first, (first..count).map(link))));
+        let some = |first: usize| &nodes[first..(first + LANES).min(count) + 1];
+        groups.extend((0..count).step_by(LANES).map(|first| LinkGroup::of(first, some(first))));
+    }
+
+    /// Gathers the discs in the box of the ring in this place.
+    fn gather_discs(&mut self, place: u32, ring_of: &[u32], near: RingQuery<'_>) {
+        let Self { groups, discs, rows, .. } = self;
         let aabb = groups.iter().fold(Aabb::EMPTY, |aabb, group| aabb.union(group.aabb));
         let (low, high) = (aabb.low(), aabb.high());
-        discs.clear();
         // Nodes of a ring keep apart as discs.
-        let mut add = |disc: &Disc| {
-            if disc.aabb().overlaps(aabb) && ring_of[disc.index as usize] != place {
-                discs.push(*disc);
-            }
-        };
-        near.bodies.in_box(low, high).for_each(|body| near.bodies.discs_of(body, p).for_each(|disc| add(&disc)));
-        near.disc_grids.into_iter().for_each(|grid| grid.in_box(low, high).for_each(&mut add));
-        hits.clear();
-        for disc in &*discs {
+        let is_near = |disc: &Disc| disc.aabb().overlaps(aabb) && ring_of[disc.index as usize] != place;
+        discs.clear();
+        for body in near.bodies.in_box(low, high) {
+            discs.extend(near.bodies.discs_of(body, near.particles).filter(is_near));
+        }
+        for grid in near.disc_grids {
+            // All at once: where they lie does not have to be waited for then.
+            rows.clear();
+            rows.extend(grid.rows_in_box(low, high));
+            rows.iter().for_each(|row| discs.extend(grid.row(row).iter().filter(|disc| is_near(disc))));
+        }
+    }
+
+    fn find_hits(&mut self, dispatch: Dispatch) {
+        let Self { groups, discs, candidates, squared, hits, .. } = self;
+        // Whether boxes overlap is hard to foresee: each pair is written, and the next one over it if they do not.
+        candidates.resize(discs.len() * groups.len() + 1, (0, 0));
+        let mut count = 0;
+        for (disc, d) in discs.iter().zip(0..) {
             let aabb = disc.aabb();
-            for group in groups.iter().filter(|group| aabb.overlaps(group.aabb)) {
-                let (particle, first, lanes) = (disc.index, group.first, group.near(disc, near.dispatch));
-                hits.extend((lanes != 0).then_some(Hit { particle, first, lanes }));
+            for (group, g) in groups.iter().zip(0..) {
+                candidates[count] = (d, g);
+                count += usize::from(aabb.overlaps(group.aabb));
             }
         }
-        hits.sort_unstable_by_key(|hit| (hit.particle, hit.first));
+        candidates.truncate(count);
+        squared.resize(count, [0.0; LANES]);
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for (&(d, g), squared) in candidates.iter().zip(&mut *squared) {
+                    *squared = groups[g as usize].squared_distances(&discs[d as usize]);
+                }
+            },
+        );
+        hits.clear();
+        for (&(d, g), squared) in candidates.iter().zip(squared) {
+            let (particle, first, lanes) = (discs[d as usize].index, groups[g as usize].first, finite(squared));
+            hits.extend((lanes != 0).then_some(Hit { particle, first, lanes }));
+        }
+        hits.sort_unstable_by_key(|hit| u64::from(hit.particle) << 32 | u64::from(hit.first));
     }
 
     /// Turns what was found near one ring into one contact for each disc that may touch it.
@@ -262,9 +307,14 @@ impl Search {
             if near.exemptions.contains(p.owner[i], ring.owner) {
                 continue;
             }
-            let places = hits.iter().flat_map(|hit| hit.places());
-            let all = places.map(|place| FoundLink { link: ring.link(place as usize), place });
-            links.extend(all.filter(|found| may_touch(p, particle, found.link, near.exemptions)));
+            for hit in hits {
+                for place in hit.places() {
+                    let link = ring.link(place as usize);
+                    if may_touch(p, particle, link, near.exemptions) {
+                        links.push(FoundLink { link, place });
+                    }
+                }
+            }
             let last = links.len() as u32;
             if last == first {
                 continue;
@@ -286,12 +336,17 @@ impl Search {
 impl Hit {
     /// Places of the links in the ring, ascending.
     fn places(&self) -> impl Iterator<Item = u32> {
-        let Self { first, lanes, .. } = *self;
-        (0..LANES as u32).filter(move |lane| lanes >> lane & 1 == 1).map(move |lane| first + lane)
+        let Self { first, mut lanes, .. } = *self;
+        std::iter::from_fn(move || {
+            let lane = (lanes != 0).then(|| lanes.trailing_zeros())?;
+            lanes &= lanes - 1;
+            Some(first + lane)
+        })
     }
 }
 
 /// Whether a disc collides with a link of a ring that it is no node of, and not through a gate. Exempt owners never do.
+#[inline]
 pub(crate) fn may_touch(p: &Particles, disc: u32, Link { a, b }: Link, exemptions: &Exemptions) -> bool {
     let (i, node) = (disc as usize, a as usize);
     let owners = [p.owner[i], p.owner[node]];
@@ -315,7 +370,7 @@ mod tests {
             links: 0..0,
         };
         let contacts = [(7, 0), (8, 0), (5, 2), (6, 3), (7, 3), (9, 3)].map(contact).to_vec();
-        let rings = RingContacts { contacts, ..RingContacts::default() };
+        let rings = RingContacts { contacts, starts: vec![0, 2, 2, 3, 6], ..RingContacts::default() };
         let particles = |ring| rings.of_ring(ring).iter().map(|contact| contact.particle).collect::<Vec<_>>();
         assert_eq!([0, 1, 2, 3, 4].map(particles), [vec![7, 8], vec![], vec![5], vec![6, 7, 9], vec![]]);
     }

@@ -22,7 +22,7 @@ use crate::spec_field::FieldValue::{Number, Word};
 use crate::spec_field::{FieldVisitor, check, field};
 use density::{SUPPORT, Sums};
 use glam::Vec2;
-use neighbours::{Group, Lanes, Sorted};
+use neighbours::{Group, Lanes, Neighbour, Sorted};
 use serde::{Deserialize, Serialize};
 pub(crate) use settle::settle;
 
@@ -116,6 +116,7 @@ pub(crate) struct Workspace {
 /// What the projection of one fluid finds.
 #[derive(Debug, Default)]
 struct Scratch {
+    neighbours: Vec<Neighbour>,
     /// Of each group's members from each of its candidates.
     distances: Vec<Lanes>,
     /// Of each group.
@@ -193,17 +194,25 @@ impl Workspace {
         let Self { rest_density, sorted, scratch } = self;
         scratch.resize_with(fluids.len().div_ceil(FLUIDS), Scratch::default);
         let portions = fluids.chunks(FLUIDS).zip(sorted.chunks_mut(FLUIDS)).zip(scratch).collect();
-        let found = &*particles;
-        parallel::for_each(portions, |((fluids, sorted), scratch): ((&[Fluid], &mut [Sorted]), &mut Scratch)| {
-            for (fluid, sorted) in fluids.iter().zip(sorted) {
-                sorted.read(found, fluid.support_radius());
-                find_shifts(fluid, sorted, scratch, [*rest_density, h], dispatch);
-                sorted.hold_images();
-            }
-        });
-        for (fluid, sorted) in fluids.iter().zip(sorted) {
-            sorted.shift(fluid.support_radius(), particles);
-        }
+        parallel::for_each_then(
+            particles,
+            portions,
+            |particles, ((fluids, sorted), scratch): &mut ((&[Fluid], &mut [Sorted]), &mut Scratch)| {
+                for (fluid, sorted) in fluids.iter().zip(&mut **sorted) {
+                    // One after the other in the same memory, which is in the cache.
+                    std::mem::swap(&mut sorted.neighbours, &mut scratch.neighbours);
+                    sorted.read(particles, fluid.support_radius());
+                    find_shifts(fluid, sorted, scratch, [*rest_density, h], dispatch);
+                    std::mem::swap(&mut sorted.neighbours, &mut scratch.neighbours);
+                    sorted.hold_images();
+                }
+            },
+            |particles, ((fluids, sorted), _)| {
+                for (fluid, sorted) in fluids.iter().zip(sorted) {
+                    sorted.shift(fluid.support_radius(), particles);
+                }
+            },
+        );
     }
 }
 
@@ -211,7 +220,7 @@ impl Workspace {
 fn find_shifts(
     fluid: &Fluid,
     sorted: &mut Sorted,
-    Scratch { distances, sums }: &mut Scratch,
+    Scratch { distances, sums, .. }: &mut Scratch,
     [rest_density, h]: [f32; 2],
     dispatch: Dispatch,
 ) {
