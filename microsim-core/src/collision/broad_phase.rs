@@ -15,7 +15,9 @@ use super::exemptions::Exemptions;
 use super::images::Images;
 use super::obstacle::Obstacle;
 use super::obstacle_path::ObstaclePath;
-use super::ring::{Containment, Ring, RingContacts, RingQuery};
+use super::ring::{Containment, Ring};
+use super::ring_contacts::RingContacts;
+use super::ring_search::RingQuery;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins};
 use super::{Contact, Contacts, Mobility, ObstacleContact};
 use crate::geometry::period::Period;
@@ -153,8 +155,8 @@ impl BroadPhase {
         fluid.found.clear();
         bodies.collect(blocks, p, sleep, limits, margins, dispatch);
         let columns = DiscColumns::of(p);
-        let loose = outside_of(blocks.iter().copied(), p.len()).flatten();
-        for (i, disc) in loose.filter_map(|i| columns.disc(i, limits.step).map(|disc| (i, disc))) {
+        for i in outside_of(blocks.iter().copied(), p.len()).flatten() {
+            let Some(disc) = columns.disc(i, limits.step) else { continue };
             match (p.fluid[i], p.next_in_ring[i]) {
                 (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
                 (0, _) => membranes.found.push(disc),
@@ -261,7 +263,7 @@ fn find_contacts(
         }
     }
     if fluid_changes.find(fluid, input.particles) {
-        fluid_changes.pairs(fluid, input.particles, consider);
+        fluid_changes.pairs(fluid, consider);
     }
     if let Some(images) = images {
         bodies.pairs_across(&images, filter, others);

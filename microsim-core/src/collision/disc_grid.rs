@@ -114,8 +114,17 @@ impl DiscGrid {
 
     /// Discs that may get into a box, and some more.
     pub(super) fn in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = &Disc> {
-        let ranges = self.grid.ranges_in_box(low - self.max_swept_radius, high + self.max_swept_radius);
-        ranges.flat_map(|range| &self.discs[range])
+        self.rows_in_box(low, high).flat_map(|row| self.row(&row))
+    }
+
+    /// The same row by row.
+    pub(super) fn rows_in_box(&self, low: Vec2, high: Vec2) -> impl Iterator<Item = Range<usize>> {
+        self.grid.ranges_in_box(low - self.max_swept_radius, high + self.max_swept_radius)
+    }
+
+    /// The discs of a row.
+    pub(super) fn row(&self, row: &Range<usize>) -> &[Disc] {
+        &self.discs[row.clone()]
     }
 
     /// Discs that may touch one that is not of the grid.
@@ -143,6 +152,8 @@ impl DiscGrid {
 /// Where the fluid changes from one disc of a grid to the next: neighbours of one fluid are skipped without a look at them.
 #[derive(Debug, Default)]
 pub(super) struct FluidChanges {
+    /// The fluid of each disc.
+    fluids: Vec<u32>,
     /// Changes up to each disc.
     counts: Vec<u32>,
 }
@@ -150,35 +161,49 @@ pub(super) struct FluidChanges {
 impl FluidChanges {
     /// Finds the changes; returns whether there are any.
     pub(super) fn find(&mut self, grid: &DiscGrid, p: &Particles) -> bool {
-        let fluid_of = |disc: &Disc| p.fluid[disc.index as usize];
-        let (mut count, mut last) = (0, grid.iter().next().map(fluid_of));
-        self.counts.clear();
-        self.counts.extend(grid.iter().map(|disc| {
-            let fluid = Some(fluid_of(disc));
-            count += u32::from(fluid != last);
-            last = fluid;
+        let Self { fluids, counts } = self;
+        fluids.clear();
+        fluids.extend(grid.iter().map(|disc| p.fluid[disc.index as usize]));
+        let (mut count, mut last) = (0, fluids.first().copied());
+        counts.clear();
+        counts.extend(fluids.iter().map(|&fluid| {
+            count += u32::from(Some(fluid) != last);
+            last = Some(fluid);
             count
         }));
         count > 0
     }
 
     /// Calls `visit` once for each two discs that may touch, but for some of the same fluid.
-    pub(super) fn pairs(&self, grid: &DiscGrid, p: &Particles, mut visit: impl FnMut(&Disc, &Disc)) {
-        let fluid = |place: usize| p.fluid[grid.discs[place].index as usize];
-        grid.grid.neighbours(0..grid.grid.rows(), |k, others| {
-            let Range { start, end } = others;
-            if start < end && (self.counts[start] != self.counts[end - 1] || fluid(start) != fluid(k)) {
-                let near = grid.discs[others].iter().filter(|other| grid.discs[k].is_near(other));
-                near.for_each(|other| visit(&grid.discs[k], other));
+    pub(super) fn pairs(&self, grid: &DiscGrid, mut visit: impl FnMut(&Disc, &Disc)) {
+        grid.grid.neighbours(0..grid.grid.rows(), |cell, right, above| {
+            // The cell itself is part of what is to the right.
+            if self.is_one(cell.start, &right) && self.is_one(cell.start, &above) {
+                return;
+            }
+            for k in cell {
+                for others in [k + 1..right.end, above.clone()].into_iter().filter(|others| !self.is_one(k, others)) {
+                    let near = grid.discs[others].iter().filter(|other| grid.discs[k].is_near(other));
+                    near.for_each(|other| visit(&grid.discs[k], other));
+                }
             }
         });
+    }
+
+    /// Whether all discs in some places, which lie side by side, are of the fluid of the disc in place `k`.
+    #[inline(always)]
+    fn is_one(&self, k: usize, others: &Range<usize>) -> bool {
+        let Range { start, end } = *others;
+        start >= end || (self.counts[start] == self.counts[end - 1] && self.fluids[start] == self.fluids[k])
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::particle::Particle;
     use crate::rng::Rng;
+    use crate::solver::testing::disc;
 
     #[test]
     fn boxes_of_discs_that_are_near_enough_overlap_despite_rounding() {
@@ -196,5 +221,30 @@ mod tests {
             }
         }
         assert!(near > 10_000, "{near}");
+    }
+
+    #[test]
+    fn all_pairs_of_different_fluids_are_found_once() {
+        let (mut rng, mut p) = (Rng::new(7, 2), Particles::default());
+        // Blots of one fluid each, so that some cells and all around them are of one fluid.
+        for fluid in 1..9 {
+            let centre = Vec2::new(rng.range(4.0, 16.0), rng.range(4.0, 16.0));
+            for _ in 0..80 {
+                let at = centre + Vec2::new(rng.range(-4.0, 4.0), rng.range(-4.0, 4.0));
+                p.insert(&Particle { fluid, ..disc(at, 1.0) });
+            }
+        }
+        let (mut grid, mut changes, columns) = (DiscGrid::default(), FluidChanges::default(), DiscColumns::of(&p));
+        grid.found.extend((0..p.len()).filter_map(|i| columns.disc(i, 0.0)));
+        grid.sort(Vec2::splat(20.0));
+        let is_wanted = |a: &Disc, b: &Disc| p.fluid[a.index as usize] != p.fluid[b.index as usize];
+        let sorted = |a: &Disc, b: &Disc| (a.index.min(b.index), a.index.max(b.index));
+        let (mut expected, mut found, mut same) = (Vec::new(), Vec::new(), 0);
+        grid.pairs(|a, b| if is_wanted(a, b) { expected.push(sorted(a, b)) } else { same += 1 });
+        assert!(changes.find(&grid, &p));
+        let mut others = 0;
+        changes.pairs(&grid, |a, b| if is_wanted(a, b) { found.push(sorted(a, b)) } else { others += 1 });
+        assert_eq!(found, expected);
+        assert!(found.len() > 100 && others < same, "{} {others} {same}", found.len());
     }
 }

@@ -2,12 +2,19 @@
 
 use super::aabb::Aabb;
 use super::disc_grid::Disc;
-use crate::instruction_set::{self, Dispatch};
+use crate::instruction_set;
 use crate::particle::LANES;
-use glam::Vec2;
+use glam::{Vec2, Vec4};
 
 /// A value for each link.
-type Lanes = [f32; LANES];
+pub(super) type Lanes = [f32; LANES];
+
+/// A node of a ring, and half the width of the link that begins there: its radius and half of the margin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub at: Vec2,
+    pub half_width: f32,
+}
 
 /// Up to eight links; lanes without one are near nothing.
 #[derive(Clone, Copy, Debug)]
@@ -16,77 +23,52 @@ pub(super) struct LinkGroup {
     pub first: u32,
     /// The box around all places within the half width of any of them, and some more: rounding takes nothing away that is near.
     pub aabb: Aabb,
-    /// Both ends of each link, and the box of the link, x and y.
+    /// One end of each link, and from there to the other one, x and y.
     a: [Lanes; 2],
-    b: [Lanes; 2],
-    low: [Lanes; 2],
-    high: [Lanes; 2],
-    /// Radius of the nodes and half of the margin.
+    along: [Lanes; 2],
+    squared_length: Lanes,
     half_width: Lanes,
 }
 
 impl LinkGroup {
-    /// Up to eight links from the one in place `first` on, each by its ends and its half width.
-    pub(super) fn of(first: usize, links: impl Iterator<Item = ([Vec2; 2], f32)>) -> Self {
-        let none = [[0.0; LANES]; 2];
-        let (low, high) = ([[f32::INFINITY; LANES]; 2], [[f32::NEG_INFINITY; LANES]; 2]);
-        let (aabb, half_width) = (Aabb::EMPTY, [0.0; LANES]);
-        let mut group = Self { first: first as u32, aabb, a: none, b: none, low, high, half_width };
-        for (lane, (ends, half_width)) in links.take(LANES).enumerate() {
-            group.set(lane, ends, half_width);
+    /// The links between neighbours of up to nine nodes, of which the first one is in place `first`.
+    pub(super) fn of(first: usize, nodes: &[Node]) -> Self {
+        // Nothing is nearer than a width that is no number.
+        let (none, mut half_width, mut aabb) = ([0.0; LANES], [f32::NAN; LANES], Aabb::EMPTY);
+        let ([mut a_x, mut a_y], [mut along_x, mut along_y]) = ([none; 2], [none; 2]);
+        for (link, l) in nodes.windows(2).zip(0..LANES) {
+            let [a, b] = [link[0], link[1]];
+            let along = b.at - a.at;
+            (a_x[l], a_y[l], along_x[l], along_y[l], half_width[l]) = (a.at.x, a.at.y, along.x, along.y, a.half_width);
+            aabb = aabb.union(Aabb::around(a.at, a.half_width)).union(Aabb::around(b.at, a.half_width));
         }
-        group
-    }
-
-    fn set(&mut self, lane: usize, [a, b]: [Vec2; 2], half_width: f32) {
-        let aabb = Aabb::new(a.min(b) - half_width, a.max(b) + half_width).shrunk(0.0);
-        let columns = [&mut self.a, &mut self.b, &mut self.low, &mut self.high];
-        for (column, Vec2 { x, y }) in columns.into_iter().zip([a, b, aabb.low(), aabb.high()]) {
-            (column[0][lane], column[1][lane]) = (x, y);
-        }
-        self.half_width[lane] = half_width;
-        self.aabb = self.aabb.union(aabb);
-    }
-
-    /// Which of the links a disc may touch, one bit each.
-    #[inline(always)]
-    pub(super) fn near(&self, disc: &Disc, dispatch: Dispatch) -> u32 {
-        // Bits are made outside of the kernel: inside they would keep the compiler from using all lanes.
-        let near = dispatch.run(
-            #[inline(always)]
-            || self.squared_distances(disc),
-        );
-        let bits: [u32; LANES] = std::array::from_fn(|l| if near[l] < f32::INFINITY { 1 << l } else { 0 });
-        bits.iter().fold(0, |all, bit| all | bit)
+        let squared_length = each(|l| along_x[l] * along_x[l] + along_y[l] * along_y[l]);
+        let (a, along, aabb) = ([a_x, a_y], [along_x, along_y], aabb.shrunk(0.0));
+        Self { first: first as u32, aabb, a, along, squared_length, half_width }
     }
 
     /// Squared distances of the links that a disc may touch; of the others, infinity.
     #[inline(always)]
-    fn squared_distances(&self, disc: &Disc) -> Lanes {
-        let (at, low, high) = (disc.at, disc.aabb().low(), disc.aabb().high());
-        let Self { a: [a_x, a_y], b: [b_x, b_y], half_width, .. } = self;
-        let (along_x, along_y) = (each(|l| b_x[l] - a_x[l]), each(|l| b_y[l] - a_y[l]));
-        let (from_x, from_y) = (each(|l| at.x - a_x[l]), each(|l| at.y - a_y[l]));
+    pub(super) fn squared_distances(&self, disc: &Disc) -> Lanes {
+        let Self { a: [a_x, a_y], along: [along_x, along_y], squared_length, half_width, .. } = self;
+        let (from_x, from_y) = (each(|l| disc.at.x - a_x[l]), each(|l| disc.at.y - a_y[l]));
         let dot = each(|l| from_x[l] * along_x[l] + from_y[l] * along_y[l]);
-        let squared_length = each(|l| along_x[l] * along_x[l] + along_y[l] * along_y[l]);
-        // As in `nearest_on_segment`; chosen by one comparison after the other, or else there would be branches.
         let fraction = each(|l| dot[l] / squared_length[l]);
-        let (inner_x, inner_y) =
-            (each(|l| a_x[l] + along_x[l] * fraction[l]), each(|l| a_y[l] + along_y[l] * fraction[l]));
-        let before_x = each(|l| if fraction[l] > 0.0 { inner_x[l] } else { a_x[l] });
-        let before_y = each(|l| if fraction[l] > 0.0 { inner_y[l] } else { a_y[l] });
-        let nearest_x = each(|l| if fraction[l] >= 1.0 { b_x[l] } else { before_x[l] });
-        let nearest_y = each(|l| if fraction[l] >= 1.0 { b_y[l] } else { before_y[l] });
-        let (x, y) = (each(|l| at.x - nearest_x[l]), each(|l| at.y - nearest_y[l]));
+        // By one comparison after the other, or else there would be branches. A link without length has no fraction.
+        let fraction = each(|l| if fraction[l] > 0.0 { fraction[l] } else { 0.0 });
+        let fraction = each(|l| if fraction[l] < 1.0 { fraction[l] } else { 1.0 });
+        let (x, y) = (each(|l| from_x[l] - along_x[l] * fraction[l]), each(|l| from_y[l] - along_y[l] * fraction[l]));
         let squared = each(|l| x[l] * x[l] + y[l] * y[l]);
         let distance = each(|l| disc.swept_radius + half_width[l]);
-        let none = f32::INFINITY;
-        let near = each(|l| if squared[l] < distance[l] * distance[l] { squared[l] } else { none });
-        let near = each(|l| if low.x <= self.high[0][l] { near[l] } else { none });
-        let near = each(|l| if low.y <= self.high[1][l] { near[l] } else { none });
-        let near = each(|l| if high.x >= self.low[0][l] { near[l] } else { none });
-        each(|l| if high.y >= self.low[1][l] { near[l] } else { none })
+        each(|l| if squared[l] < distance[l] * distance[l] { squared[l] } else { f32::INFINITY })
     }
+}
+
+/// Which of these are finite, one bit each. Not to be used in the kernel that makes them: it would keep the compiler from using
+/// all lanes.
+pub(super) fn finite(squared: &Lanes) -> u32 {
+    let four = |k: usize| Vec4::from_slice(&squared[k..]).cmplt(Vec4::INFINITY).bitmask();
+    four(0) | four(4) << 4
 }
 
 /// A value for each link.
@@ -105,12 +87,13 @@ mod tests {
     fn a_disc_is_near_the_links_that_it_may_touch() {
         let (mut rng, mut hits) = (Rng::new(2, 6), 0);
         let mut place = || Vec2::new(rng.range(0.0, 9.0), rng.range(0.0, 9.0));
-        let links: Vec<[Vec2; 2]> = (0..11).map(|_| [place(), place()]).collect();
+        let nodes: Vec<Node> = (0..12).map(|_| Node { at: place(), half_width: 0.5 }).collect();
+        let links: Vec<[Vec2; 2]> = nodes.windows(2).map(|link| [link[0].at, link[1].at]).collect();
         for _ in 0..1000 {
             let disc = Disc { at: place(), swept_radius: 0.7, index: 0 };
             for first in [0, 8] {
-                let group = LinkGroup::of(first, links[first..].iter().map(|ends| (*ends, 0.5)));
-                let near = group.near(&disc, Dispatch::default());
+                let group = LinkGroup::of(first, &nodes[first..(first + LANES + 1).min(nodes.len())]);
+                let near = finite(&group.squared_distances(&disc));
                 for k in first..first + LANES {
                     let is_near = near >> (k - first) & 1 == 1;
                     let gap = |[a, b]: [Vec2; 2]| (disc.at - nearest_on_segment(a, b, disc.at)).length() - 1.2;

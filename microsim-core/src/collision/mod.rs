@@ -11,6 +11,8 @@ pub(crate) mod obstacle;
 pub(crate) mod obstacle_path;
 pub(crate) mod obstacle_record;
 pub(crate) mod ring;
+pub(crate) mod ring_contacts;
+mod ring_search;
 pub(crate) mod speculative_margin;
 pub(crate) mod uniform_grid;
 

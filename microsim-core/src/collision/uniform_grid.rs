@@ -119,23 +119,27 @@ impl UniformGrid {
     /// these rows: within a cell, with the cell to the right, and with the three cells above.
     #[inline(always)]
     pub(crate) fn pairs(&self, rows: Range<usize>, mut visit: impl FnMut(usize, usize)) {
-        self.neighbours(rows, |k, others| others.for_each(|other| visit(k, other)));
+        self.neighbours(rows, |cell, right, above| {
+            for k in cell {
+                (k + 1..right.end).chain(above.clone()).for_each(|other| visit(k, other));
+            }
+        });
     }
 
-    /// The same with all places at once that are paired with one and lie side by side.
+    /// The same cell by cell: calls `visit` with the places in each that is not empty, those in it and in the cell to the right,
+    /// and those in the three cells above.
     #[inline(always)]
-    pub(crate) fn neighbours(&self, rows: Range<usize>, mut visit: impl FnMut(usize, Range<usize>)) {
+    pub(crate) fn neighbours(
+        &self,
+        rows: Range<usize>,
+        mut visit: impl FnMut(Range<usize>, Range<usize>, Range<usize>),
+    ) {
         for row in rows.start..rows.end.min(self.rows) {
             for column in 0..self.columns {
                 let cell = self.row_range(row, column..column + 1);
-                if cell.is_empty() {
-                    continue;
-                }
-                let right = self.row_range(row, column..column + 2);
-                let above = self.row_range(row + 1, column.saturating_sub(1)..column + 2);
-                for k in cell {
-                    visit(k, k + 1..right.end);
-                    visit(k, above.clone());
+                if !cell.is_empty() {
+                    let right = self.row_range(row, column..column + 2);
+                    visit(cell, right, self.row_range(row + 1, column.saturating_sub(1)..column + 2));
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! implied. Sums run in `f64`, because the products of large coordinates cancel badly in `f32`.
 
 use super::segment::{folds_back, offset, segments_touch, turn};
-use glam::Vec2;
+use glam::{Vec2, Vec4};
 
 /// Area below which [`centroid`] takes the vertex mean, as a part of the squared perimeter.
 ///
@@ -20,17 +20,30 @@ const DEGENERATE_AREA: f64 = 1.0e-7;
 ///
 /// Source: M. Shimrat, "Algorithm 112: Position of point relative to polygon", CACM 5(8), 1962.
 pub fn contains_point(polygon: &[Vec2], point: Vec2) -> bool {
-    let Some(&(mut a)) = polygon.last() else { return false };
-    let (mut is_inside, mut is_above) = (false, a.y > point.y);
-    for &b in polygon {
-        // Most edges have both ends on one side of the ray's line.
-        if is_above != (b.y > point.y) {
-            is_above = !is_above;
-            is_inside ^= crosses_ray(a, b, point);
+    let Some(&(mut before)) = polygon.last() else { return false };
+    let mut is_inside = false;
+    for some in polygon.chunks(32) {
+        // Most edges have both ends on one side of the ray's line; which of them do not is hard to foresee.
+        let above =
+            some.chunks(4).zip(0..).fold(0, |bits, (four, k)| bits | u64::from(above(four, point.y)) << (4 * k));
+        let changes = above ^ (above << 1 | u64::from(before.y > point.y));
+        let mut changes = changes & ((1 << some.len()) - 1);
+        while changes != 0 {
+            let k = changes.trailing_zeros() as usize;
+            changes &= changes - 1;
+            is_inside ^= crosses_ray(if k > 0 { some[k - 1] } else { before }, some[k], point);
         }
-        a = b;
+        before = some[some.len() - 1];
     }
     is_inside
+}
+
+/// Which of up to four vertices are above a height, one bit each.
+fn above(vertices: &[Vec2], y: f32) -> u32 {
+    match *vertices {
+        [a, b, c, d] => Vec4::new(a.y, b.y, c.y, d.y).cmpgt(Vec4::splat(y)).bitmask(),
+        _ => vertices.iter().zip(0..).fold(0, |bits, (vertex, k)| bits | u32::from(vertex.y > y) << k),
+    }
 }
 
 /// The area that `polygon` encloses, in squared units of length, signed by the winding.
@@ -143,6 +156,7 @@ mod tests {
     use super::super::arbitrary::{convex_polygon, star_polygon, tangled_polygon};
     use super::super::segment::nearest_on_segment;
     use super::*;
+    use crate::rng::Rng;
     use glam::vec2;
     use parry2d::utils::point_in_poly2d;
     use proptest::prelude::*;
@@ -191,6 +205,24 @@ mod tests {
         // The ray runs along the horizontal edge of the notch.
         assert!(contains_point(&notched_square(), vec2(0.5, 1.0)));
         assert!(!contains_point(&notched_square(), vec2(-0.5, 1.0)));
+    }
+
+    #[test]
+    fn many_vertices_at_a_time_give_what_one_edge_after_the_other_gives() {
+        let (mut rng, mut inside) = (Rng::new(6, 4), 0);
+        for count in (0..70).chain([127, 128, 129]) {
+            let mut place = || vec2(rng.range(-3.0, 3.0).round(), rng.range(-3.0, 3.0));
+            let polygon: Vec<Vec2> = (0..count).map(|_| place()).collect();
+            for k in 0..50 {
+                // Some are as high as a vertex.
+                let height = polygon.get(k).map_or(0.1, |vertex| vertex.y);
+                let point = vec2(place().x + 0.1, height);
+                let expected = edges(&polygon).filter(|&(a, b)| crosses_ray(a, b, point)).count() % 2 == 1;
+                assert_eq!(contains_point(&polygon, point), expected, "{point} in {count}");
+                inside += u32::from(expected);
+            }
+        }
+        assert!(inside > 1000, "{inside}");
     }
 
     #[test]

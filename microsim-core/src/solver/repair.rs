@@ -3,7 +3,8 @@
 
 use super::strays::{catch_strays, has_strays};
 use super::untangle::{Midpoints, is_tangled, untangle};
-use crate::collision::ring::{Ring, RingContacts};
+use crate::collision::ring::Ring;
+use crate::collision::ring_contacts::RingContacts;
 use crate::parallel;
 use crate::particle::Particles;
 

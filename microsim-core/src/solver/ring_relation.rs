@@ -197,6 +197,11 @@ impl Relations {
         if lane < LANES {
             return lane;
         }
+        // Links from the first node on come once more after the last one.
+        let lane = lane.wrapping_add(nodes.count);
+        if lane < LANES {
+            return lane;
+        }
         self.first = k;
         let RingNodes { origin_x, origin_y, x, y, .. } = nodes;
         let (along_x, along_y) = (along(origin_x, x, k), along(origin_y, y, k));
@@ -286,7 +291,8 @@ mod tests {
             );
             for particle in [stray, ring[2]] {
                 let mut relations = Relations::unknown();
-                for k in 0..count {
+                // From the last links on to the first ones, too.
+                for k in (count - 2..count).chain(0..count) {
                     let link = Link { a: ring[k], b: ring[(k + 1) % count] };
                     let alone = Relation::of(particle, link, &particles);
                     let found = relations.to(k, particle as usize, &nodes, particles.position_cells());

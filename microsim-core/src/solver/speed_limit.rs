@@ -15,6 +15,11 @@ const WITHIN: f32 = 0.9999;
 /// Moves back those of some particles that have moved farther than `longest` since the substep began, and moves the others on, so
 /// that the centre of mass stays where it is unless all are at the limit.
 pub(crate) fn limit_ways<I: Iterator<Item = u32>>(of: impl Fn() -> I, p: &mut Particles, longest: f32) {
+    let within = WITHIN * longest;
+    // Nearly always.
+    if !of().any(|i| moved(p, i as usize).length_squared() > within * within) {
+        return;
+    }
     let mut on = Vec2::ZERO;
     for _ in 0..ROUNDS {
         let (mut mass, mut lost) = (0.0, Vec2::ZERO);
@@ -23,7 +28,7 @@ pub(crate) fn limit_ways<I: Iterator<Item = u32>>(of: impl Fn() -> I, p: &mut Pa
                 continue;
             }
             let (way, own) = (moved(p, i) + on, ratio(1.0, p.inv_mass[i]));
-            let back = way * (1.0 - ratio_limit(way.length_squared(), WITHIN * longest));
+            let back = way * (1.0 - ratio_limit(way.length_squared(), within));
             shift(p, i, on - back);
             mass += own;
             lost += back * own;

@@ -3,7 +3,8 @@
 use super::contact::shift;
 use super::ring_contact::STANDOFF;
 use super::ring_relation::Relation;
-use crate::collision::ring::{Ring, RingContact, RingContacts, RingSide};
+use crate::collision::ring::{Ring, RingContact, RingSide};
+use crate::collision::ring_contacts::RingContacts;
 use crate::geometry::polygon::contains_point;
 use crate::particle::Particles;
 use glam::Vec2;

@@ -2,7 +2,8 @@
 
 use crate::collision::broad_phase::{BroadPhase, SearchInput};
 use crate::collision::exemptions::Exemptions;
-use crate::collision::ring::{Containment, Ring, RingContacts};
+use crate::collision::ring::{Containment, Ring};
+use crate::collision::ring_contacts::RingContacts;
 use crate::collision::speculative_margin::DisplacementLimits;
 use crate::geometry::period::Period;
 use crate::geometry::ring::unit_vector;

@@ -17,12 +17,12 @@ use crate::error::Error;
 use crate::geometry::period::Period;
 use crate::instruction_set::Dispatch;
 use crate::parallel;
-use crate::particle::Particles;
+use crate::particle::{DisjointPositions, Particles};
 use crate::spec_field::FieldValue::{Number, Word};
 use crate::spec_field::{FieldVisitor, check, field};
 use density::{SUPPORT, Sums};
 use glam::Vec2;
-use neighbours::{Group, Lanes, Sorted};
+use neighbours::{Group, Lanes, Neighbour, Place, Sorted};
 use serde::{Deserialize, Serialize};
 pub(crate) use settle::settle;
 
@@ -116,6 +116,7 @@ pub(crate) struct Workspace {
 /// What the projection of one fluid finds.
 #[derive(Debug, Default)]
 struct Scratch {
+    neighbours: Vec<Neighbour>,
     /// Of each group's members from each of its candidates.
     distances: Vec<Lanes>,
     /// Of each group.
@@ -155,7 +156,8 @@ impl Fluid {
         let mut sorted = Sorted::default();
         let support_radius = SUPPORT * self.params.spacing;
         sorted.sort(&self.particles, particles, [Vec2::ZERO; 2], [support_radius, 0.0], period);
-        sorted.read(particles, support_radius);
+        let place = |i| Place { origin: particles.origin(i), offset: particles.offset(i), moved: Vec2::ZERO };
+        sorted.read(place, support_radius);
         let (rest_density, mut sum) = (density::lattice_density(), 0.0);
         let mut distances = vec![Lanes::default(); sorted.candidates()];
         for group in &sorted.groups {
@@ -193,17 +195,22 @@ impl Workspace {
         let Self { rest_density, sorted, scratch } = self;
         scratch.resize_with(fluids.len().div_ceil(FLUIDS), Scratch::default);
         let portions = fluids.chunks(FLUIDS).zip(sorted.chunks_mut(FLUIDS)).zip(scratch).collect();
-        let found = &*particles;
+        #[expect(unsafe_code, reason = "fluids are disjoint, but their particles do not lie side by side")]
+        // SAFETY: a fluid is in one portion, and no particle is in two fluids.
+        let positions = unsafe { DisjointPositions::new(particles.position_cells()) };
         parallel::for_each(portions, |((fluids, sorted), scratch): ((&[Fluid], &mut [Sorted]), &mut Scratch)| {
+            let p = positions.cells();
+            let place = |i| Place { origin: p.origin(i), offset: p.offset(i), moved: p.moved(i) };
             for (fluid, sorted) in fluids.iter().zip(sorted) {
-                sorted.read(found, fluid.support_radius());
+                // One after the other in the same memory, which is in the cache.
+                std::mem::swap(&mut sorted.neighbours, &mut scratch.neighbours);
+                sorted.read(place, fluid.support_radius());
                 find_shifts(fluid, sorted, scratch, [*rest_density, h], dispatch);
+                std::mem::swap(&mut sorted.neighbours, &mut scratch.neighbours);
                 sorted.hold_images();
+                sorted.shift(fluid.support_radius(), p);
             }
         });
-        for (fluid, sorted) in fluids.iter().zip(sorted) {
-            sorted.shift(fluid.support_radius(), particles);
-        }
     }
 }
 
@@ -211,7 +218,7 @@ impl Workspace {
 fn find_shifts(
     fluid: &Fluid,
     sorted: &mut Sorted,
-    Scratch { distances, sums }: &mut Scratch,
+    Scratch { distances, sums, .. }: &mut Scratch,
     [rest_density, h]: [f32; 2],
     dispatch: Dispatch,
 ) {

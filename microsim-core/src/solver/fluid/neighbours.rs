@@ -13,7 +13,7 @@
 use crate::collision::uniform_grid::UniformGrid;
 use crate::geometry::period::Period;
 use crate::instruction_set::each;
-use crate::particle::Particles;
+use crate::particle::{Particles, PositionCells};
 use crate::solver::lanes::LANES;
 use glam::Vec2;
 use std::ops::Range;
@@ -85,6 +85,13 @@ pub(super) struct Walls {
     pub high: Vec2,
 }
 
+/// Where a particle is, relative to its origin, and how far it has moved since the substep began.
+pub(super) struct Place {
+    pub origin: Vec2,
+    pub offset: Vec2,
+    pub moved: Vec2,
+}
+
 impl Sorted {
     /// Sorts particles between walls, of which these are the lower left and the upper right corner, for searches as far as `margin` beyond `support_radius`, in units of it.
     pub(super) fn sort(
@@ -122,13 +129,13 @@ impl Sorted {
     }
 
     /// Reads where the particles are now, and how far they have moved in this substep.
-    pub(super) fn read(&mut self, particles: &Particles, support_radius: f32) {
+    pub(super) fn read(&mut self, place: impl Fn(usize) -> Place, support_radius: f32) {
         let inverse = 1.0 / support_radius;
         let Self { particles: sorted, neighbours, low, .. } = self;
         neighbours.clear();
-        neighbours.extend(sorted.iter().map(|&i| neighbour(particles, i as usize, *low, inverse)));
+        neighbours.extend(sorted.iter().map(|&i| neighbour(place(i as usize), *low, inverse)));
         if !self.images.is_empty() {
-            self.read_images(particles, inverse);
+            self.read_images(place, inverse);
         }
         let Self { particles: sorted, neighbours, .. } = self;
         separate_coincident(neighbours);
@@ -137,11 +144,10 @@ impl Sorted {
     }
 
     /// Moves the members of each group by their shifts.
-    pub(super) fn shift(&self, support_radius: f32, particles: &mut Particles) {
+    pub(super) fn shift(&self, support_radius: f32, particles: PositionCells<'_>) {
         for (group, [shift_x, shift_y]) in self.groups.iter().zip(&self.shifts) {
             for (l, &i) in self.particles[group.members.clone()].iter().enumerate() {
-                particles.x[i as usize] += shift_x[l] * support_radius;
-                particles.y[i as usize] += shift_y[l] * support_radius;
+                particles.shift(i as usize, Vec2::new(shift_x[l], shift_y[l]) * support_radius);
             }
         }
     }
@@ -175,10 +181,10 @@ impl Sorted {
 
     #[cold]
     #[inline(never)]
-    fn read_images(&mut self, particles: &Particles, inverse: f32) {
+    fn read_images(&mut self, place: impl Fn(usize) -> Place, inverse: f32) {
         for image in &self.images {
             let i = self.particles[image.place] as usize;
-            self.neighbours[image.place] = neighbour(particles, i, self.low - image.shift, inverse);
+            self.neighbours[image.place] = neighbour(place(i), self.low - image.shift, inverse);
         }
     }
 
@@ -268,13 +274,12 @@ fn bounds(positions: &[Vec2]) -> (Vec2, Vec2) {
 }
 
 #[inline(always)]
-fn neighbour(particles: &Particles, i: usize, low: Vec2, inverse: f32) -> Neighbour {
-    let at = ((particles.origin(i) - low) + particles.offset(i)) * inverse;
+fn neighbour(Place { origin, offset, moved }: Place, low: Vec2, inverse: f32) -> Neighbour {
+    let at = ((origin - low) + offset) * inverse;
     let is_somewhere = at.x.abs() < -NOWHERE.x && at.y.abs() < -NOWHERE.y;
     let at = if is_somewhere { at } else { NOWHERE };
-    let moved_x = (particles.x[i] - particles.prev_x[i]) * inverse;
-    let moved_y = (particles.y[i] - particles.prev_y[i]) * inverse;
-    Neighbour { x: at.x, y: at.y, moved_x, moved_y, multiplier: 0.0 }
+    let moved = moved * inverse;
+    Neighbour { x: at.x, y: at.y, moved_x: moved.x, moved_y: moved.y, multiplier: 0.0 }
 }
 
 /// Particles in the very same place would never come apart: gives them different ones.

@@ -40,16 +40,21 @@ impl World {
     /// What the last step's search found of prey near engulfers.
     pub(super) fn near_prey(&self) -> NearPrey {
         let organism = |owner| self.organisms.id_at(owner).and_then(|id| self.organisms.get(id));
-        let mut found = Vec::new();
+        let may_eat = |engulfer: u32, prey: u32| {
+            let eats = organism(engulfer).and_then(|organism| organism.engulfer.as_ref());
+            let eats_cells = eats.is_some_and(|eats| eats.params.way == IngestionWay::WideGate);
+            let is_prey = |organism: &Organism| organism.prey.is_some() || (eats_cells && organism.is_cell());
+            eats.is_some() && organism(prey).is_some_and(is_prey)
+        };
+        // What is near of two of them lies side by side.
+        let (mut found, mut last, mut eat) = (Vec::new(), None, [false; 2]);
         for (owners, near) in self.near_of_others() {
-            for [engulfer, prey] in [owners, [owners[1], owners[0]]] {
-                let eats = organism(engulfer).and_then(|organism| organism.engulfer.as_ref());
-                let eats_cells = eats.is_some_and(|eats| eats.params.way == IngestionWay::WideGate);
-                let is_prey = |organism: &Organism| organism.prey.is_some() || (eats_cells && organism.is_cell());
-                if eats.is_some() && organism(prey).is_some_and(is_prey) {
-                    found.push((engulfer, near));
-                }
+            if last != Some(owners) {
+                let [a, b] = owners;
+                (last, eat) = (Some(owners), [may_eat(a, b), may_eat(b, a)]);
             }
+            let engulfers = owners.into_iter().zip(eat).filter(|(_, eats)| *eats);
+            found.extend(engulfers.map(|(engulfer, _)| (engulfer, near)));
         }
         found.sort_by_key(|(engulfer, _)| *engulfer);
         NearPrey(found)
