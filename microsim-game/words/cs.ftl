@@ -199,7 +199,10 @@ guide-unkept = Co jsi našel, nelze uložit: { $error }
 
 ## Dva hráči
 
-two-about = Dvě buňky sdílejí jeden preparát po 90 sekund. Hráč 1 řídí myší, hráč 2 šipkami nebo gamepadem.
+two-about = { $what } Hráč 1: myš. Hráč 2: šipky nebo gamepad.
+two-versus-about = Kdo sní víc za 90 sekund?
+two-together-about = Kolik toho za 90 sekund sníte společně?
+two-bot-about = Ty a buňka, kterou řídí program: kdo sní víc za 90 sekund?
 two-versus = Proti sobě
 two-together = Společně
 two-bot = Proti programu

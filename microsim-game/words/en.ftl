@@ -193,7 +193,10 @@ guide-unkept = What you found cannot be kept: { $error }
 
 ## Two players
 
-two-about = Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys or a gamepad.
+two-about = { $what } Player 1: mouse. Player 2: arrow keys or a gamepad.
+two-versus-about = Who eats more in 90 seconds?
+two-together-about = How much do you eat together in 90 seconds?
+two-bot-about = You and a cell that the program steers: who eats more in 90 seconds?
 two-versus = Against each other
 two-together = Together
 two-bot = Against the program
