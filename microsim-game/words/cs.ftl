@@ -162,8 +162,8 @@ slide-end-left = { $task } { $done }
 
 ## Potravní řetězec
 
-chain-about = Bez potravy buňka zahyne hladem a větší améby ji okusují: uteč jim mezerami, které jsou pro obry příliš úzké. Při každém zdvojnásobení velikosti si zvolíš změnu těla.
-chain-best = { $about } Tvůj nejlepší čas: { $time } s.
+chain-about = Jez, nebo zahyneš hladem. Obrům uteč mezerami. Při každém zdvojnásobení si zvolíš změnu těla.
+chain-best = { $about } Rekord: { $time } s.
 chain-today = Dnešní voda
 chain-other = Jiná voda
 chain-same = Stejná voda

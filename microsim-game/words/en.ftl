@@ -156,8 +156,8 @@ slide-end-left = { $task } { $done }
 
 ## Food chain
 
-chain-about = Your cell starves unless it eats, and larger amoebae gnaw at it: flee through the gaps, which are too narrow for giants. Each time that you double you choose a change of your body.
-chain-best = { $about } Your best: { $time } s.
+chain-about = Eat or starve. Flee from giants through gaps. Each time you double in size, you change your body.
+chain-best = { $about } Best: { $time } s.
 chain-today = Today's water
 chain-other = Other water
 chain-same = Same water
