@@ -32,7 +32,7 @@ fn labels(paused: Paused) -> impl Iterator<Item = Key> {
 /// The list that something is of, and what it is called.
 fn list_of(paused: Paused) -> Option<(Key, Overlay)> {
     match paused {
-        Paused::Slide(index) if index < SLIDES.len() => Some((Key::TitleSlides, Overlay::Slides(index))),
+        Paused::Slide(index) if index < SLIDES.len() => Some((Key::TitleSlides, Overlay::Slides(Some(index)))),
         Paused::Slide(_) | Paused::TwoPlayers(_) => Some((Key::TitleTwoPlayers, Overlay::TwoPlayers)),
         _ => None,
     }
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn a_pause_leads_back_to_the_list_that_was_chosen_from() {
-        assert!(matches!(list_of(Paused::Slide(2)), Some((Key::TitleSlides, Overlay::Slides(2)))));
+        assert!(matches!(list_of(Paused::Slide(2)), Some((Key::TitleSlides, Overlay::Slides(Some(2))))));
         for paused in [Paused::Slide(SLIDES.len()), Paused::TwoPlayers(TwoPlayers::Versus)] {
             assert!(matches!(list_of(paused), Some((Key::TitleTwoPlayers, Overlay::TwoPlayers))), "{paused:?}");
         }

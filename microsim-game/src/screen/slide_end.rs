@@ -112,7 +112,7 @@ fn items(played: Paused, is_won: bool) -> Vec<Item> {
         items.push((Key::SlideEndAgain, Paused::restart));
     }
     items.push((Key::EndWatch, |_| Next::Show(MainScreen::Replay)));
-    items.push((Key::TitleSlides, |played| Next::Open(Overlay::Slides(slide_of(played).unwrap_or_default()))));
+    items.push((Key::TitleSlides, |played| Next::Open(Overlay::Slides(slide_of(played)))));
     items.push((Key::Title, |_| Next::Show(MainScreen::Title)));
     items
 }
