@@ -161,7 +161,7 @@ fn status_lines_fit_beside_the_clock() {
         choose(language, || None);
         let mut lines: Vec<String> =
             TwoPlayers::ALL.iter().flat_map(|way| [2, 4].map(|players| way.summary(&[1234; 4][..players]))).collect();
-        lines.push(food_chain::summary(9999.0, 12.5, 12));
+        lines.push(food_chain::summary(9999.0, [12.5, 64.0], 12));
         lines.extend([Key::HudScore, Key::HudPlaces, Key::HudDigested].map(longest));
         for line in lines {
             let width = measure(TextSize::Small, &line);
