@@ -84,8 +84,8 @@ pause-photo = Fotografie
 ## Během kola
 
 hud-score = Body { $points }
-hud-places = Místa { $done }/{ $all }
-hud-digested = Stráveno { $done }/{ $all }
+hud-places = Místa { $counts }
+hud-digested = Stráveno { $counts }
 hud-lived = Život { $time } s  velikost { $size }/{ $next }
 hud-second-life = druhý život: { $sisters }
 hud-bitten = Někdo tě okusuje: uteč!

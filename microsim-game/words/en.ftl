@@ -82,8 +82,8 @@ pause-photo = Photo
 ## During a round
 
 hud-score = Score { $points }
-hud-places = Places { $done }/{ $all }
-hud-digested = Digested { $done }/{ $all }
+hud-places = Places { $counts }
+hud-digested = Digested { $counts }
 hud-lived = Lived { $time } s  size { $size }/{ $next }
 hud-second-life = second life: { $sisters }
 hud-bitten = Bitten: get away!
