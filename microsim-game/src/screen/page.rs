@@ -71,7 +71,7 @@ impl MenuPage {
     /// Writes a note between the heading and the menu, as much of it as there is room for.
     pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
         let (screen, line) = (pen.screen(), pen.line(TextSize::Small));
-        let mut lines = pen.wrap(TextSize::Small, text, NOTE_WIDTH * screen.x);
+        let mut lines = pen.wrap_evenly(TextSize::Small, text, NOTE_WIDTH * screen.x);
         let most = note_lines(pen);
         if most < lines.len() {
             lines.truncate(most);

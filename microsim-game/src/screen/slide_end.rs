@@ -80,7 +80,7 @@ fn lines_of(pen: &Pen, told: &[Paragraph], fact: TextSize) -> Vec<Line> {
     let mut lines = Vec::new();
     for (size, colour, text) in told {
         let size = if *size == TextSize::Body { fact } else { *size };
-        for line in pen.wrap(size, text, width) {
+        for line in pen.wrap_evenly(size, text, width) {
             y += 0.5 * pen.line(size);
             lines.push((Vec2::new(0.5 * screen.x, y), size, *colour, line));
             y += 0.5 * pen.line(size);
