@@ -46,6 +46,12 @@ settings-sound = Zvuk
 settings-arrows = Původní šipky
 settings-full-screen = Celá obrazovka
 settings-keys = Klávesy
+settings-quality-about = Kolik práce dá obraz. Automatická: tolik, kolik tento počítač zvládne.
+settings-motion-about = Zapnuto: nic se nehýbe ani nebliká jen pro ozdobu.
+settings-digestion-about = Zapnuto: co je uvnitř, se tráví jen při držení klávesy.
+settings-crawl-about = Zapnuto: kliknutím začneš lézt, dalším přestaneš.
+settings-pace-about = Jak rychle v kole běží čas: pomaleji je to snazší.
+settings-arrows-about = Zapnuto: zelená šipka je i tam, kde uvnitř není místo.
 settings-unknown-language = V nastavení je neznámý jazyk: { $language }.
 effort-automatic = automatická
 effort-high = vysoká
@@ -84,9 +90,9 @@ pause-photo = Fotografie
 ## Během kola
 
 hud-score = Body { $points }
-hud-places = Místa { $done }/{ $all }
-hud-digested = Stráveno { $done }/{ $all }
-hud-lived = Život { $time } s  velikost { $size }
+hud-places = Místa { $counts }
+hud-digested = Stráveno { $counts }
+hud-lived = Život { $time } s  velikost { $size }/{ $next }
 hud-second-life = druhý život: { $sisters }
 hud-bitten = Někdo tě okusuje: uteč!
 hud-full = plno
@@ -103,7 +109,7 @@ hint-taken = Pohlcuje tě větší améba: nemůžeš se hýbat a ona tě stráv
 hint-chain-crawl = Drž { $what }, lez a tlač se čelem na potravu.
 hint-chain-clock = Hodiny ukazují, jak dlouho ti potrava vystačí: bez další zahyneš hladem.
 hint-chain-rivals = Soupeři jdou po tvém pachu. Kroužek: můžeš ho sníst. Výstražná značka: sní tebe.
-hint-chain-giant = Po tvém pachu jde obr. Mezerami neprojde.
+hint-chain-giant = Po tvém pachu jdou i obři. Soupeři mezerami projdou, obři ne.
 hint-chain-divide = { $key }: buňka se rozdělí a sestra je druhý život.
 hint-chain-button = Tlačítko
 lesson-ready = Zelená šipka: na pohlcení této buňky už máš dost velké tělo.
@@ -162,8 +168,8 @@ slide-end-left = { $task } { $done }
 
 ## Potravní řetězec
 
-chain-about = Bez potravy buňka zahyne hladem a větší améby ji okusují: uteč jim mezerami, které jsou pro obry příliš úzké. Při každém zdvojnásobení velikosti si zvolíš změnu těla.
-chain-best = { $about } Tvůj nejlepší čas: { $time } s.
+chain-about = Jez, nebo zahyneš hladem. Obrům uteč mezerami. Při každém zdvojnásobení si zvolíš změnu těla.
+chain-best = { $about } Rekord: { $time } s.
 chain-today = Dnešní voda
 chain-other = Jiná voda
 chain-same = Stejná voda
@@ -199,7 +205,10 @@ guide-unkept = Co jsi našel, nelze uložit: { $error }
 
 ## Dva hráči
 
-two-about = Dvě buňky sdílejí jeden preparát po 90 sekund. Hráč 1 řídí myší, hráč 2 šipkami nebo gamepadem.
+two-about = { $what } Hráč 1: myš. Hráč 2: šipky nebo gamepad.
+two-versus-about = Kdo sní víc za 90 sekund?
+two-together-about = Kolik toho za 90 sekund sníte společně?
+two-bot-about = Ty a buňka, kterou řídí program: kdo sní víc za 90 sekund?
 two-versus = Proti sobě
 two-together = Společně
 two-bot = Proti programu

@@ -44,6 +44,12 @@ settings-sound = Sound
 settings-arrows = Classic arrows
 settings-full-screen = Full screen
 settings-keys = Keys
+settings-quality-about = How much work goes into the picture. Automatic: as much as this machine can do.
+settings-motion-about = On: nothing moves or blinks for decoration.
+settings-digestion-about = On: what is inside is digested only while a key is held.
+settings-crawl-about = On: a click starts the crawl, the next one stops it.
+settings-pace-about = How fast time passes in a round: slower is easier.
+settings-arrows-about = On: the green arrow is shown even where there is no room inside.
 settings-unknown-language = The settings have an unknown language, { $language }.
 effort-automatic = automatic
 effort-high = high
@@ -82,9 +88,9 @@ pause-photo = Photo
 ## During a round
 
 hud-score = Score { $points }
-hud-places = Places { $done }/{ $all }
-hud-digested = Digested { $done }/{ $all }
-hud-lived = Lived { $time } s  size { $size }
+hud-places = Places { $counts }
+hud-digested = Digested { $counts }
+hud-lived = Lived { $time } s  size { $size }/{ $next }
 hud-second-life = second life: { $sisters }
 hud-bitten = Bitten: get away!
 hud-full = full
@@ -101,7 +107,7 @@ hint-taken = A larger amoeba takes you in: you cannot move, and it digests you.
 hint-chain-crawl = Hold { $what } to crawl, and push your front against food.
 hint-chain-clock = The clock shows how long your food lasts: without more you starve.
 hint-chain-rivals = Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you.
-hint-chain-giant = A giant follows your scent. It does not fit through the gaps.
+hint-chain-giant = Giants follow your scent too. Rivals fit through the gaps, giants do not.
 hint-chain-divide = { $key } divides your cell: the sister is a second life.
 hint-chain-button = The button
 lesson-ready = A green arrow: you are large enough to take this cell in.
@@ -156,8 +162,8 @@ slide-end-left = { $task } { $done }
 
 ## Food chain
 
-chain-about = Your cell starves unless it eats, and larger amoebae gnaw at it: flee through the gaps, which are too narrow for giants. Each time that you double you choose a change of your body.
-chain-best = { $about } Your best: { $time } s.
+chain-about = Eat or starve. Flee from giants through gaps. Each time you double in size, you change your body.
+chain-best = { $about } Best: { $time } s.
 chain-today = Today's water
 chain-other = Other water
 chain-same = Same water
@@ -193,7 +199,10 @@ guide-unkept = What you found cannot be kept: { $error }
 
 ## Two players
 
-two-about = Two cells share one slide for 90 seconds. Player 1 steers by mouse, player 2 by the arrow keys or a gamepad.
+two-about = { $what } Player 1: mouse. Player 2: arrow keys or a gamepad.
+two-versus-about = Who eats more in 90 seconds?
+two-together-about = How much do you eat together in 90 seconds?
+two-bot-about = You and a cell that the program steers: who eats more in 90 seconds?
 two-versus = Against each other
 two-together = Together
 two-bot = Against the program

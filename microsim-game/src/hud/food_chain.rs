@@ -118,11 +118,13 @@ fn draw_rim(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32)
     }
 }
 
-/// What the status line says: time that the line has lived, and size; and whether a sister waits.
+/// What the status line says: time that the line has lived; size, and from which on the body can be changed; and whether a sister
+/// waits.
 #[must_use]
-pub fn summary(time: f32, size: f32, sisters: usize) -> String {
-    let size = words::number(size, 1);
-    let lived = words::text_with(Key::HudLived, &[("time", (time as u32).into()), ("size", (&size).into())]);
+pub fn summary(time: f32, [size, next]: [f32; 2], sisters: usize) -> String {
+    let (size, next) = (words::number(size, 1), words::number(next, 0));
+    let args = [("time", (time as u32).into()), ("size", (&size).into()), ("next", (&next).into())];
+    let lived = words::text_with(Key::HudLived, &args);
     if sisters == 0 {
         return lived;
     }

@@ -58,7 +58,7 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
 /// Advice above the lower edge, of which some height may be covered.
 pub fn draw_advice(pen: &mut Pen, text: &str, covered: f32) {
     let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
-    for (k, text) in pen.wrap(TextSize::Body, text, 0.9 * screen.x).iter().rev().enumerate() {
+    for (k, text) in pen.wrap_evenly(TextSize::Body, text, 0.9 * screen.x).iter().rev().enumerate() {
         let at = Vec2::new(0.5 * screen.x, screen.y - covered - (0.9 + 1.12 * k as f32) * line);
         pen.label(at, TextSize::Body, Align::Centre, HALO, text);
     }

@@ -89,15 +89,18 @@ impl Attempt {
     /// What is done and what is wanted, for the status line.
     #[must_use]
     pub fn summary(&self) -> String {
-        let sums = [false, true].map(|is_prey| {
-            let of_sort = self.goals().filter(|(goal, _)| matches!(goal, Goal::Digest { .. }) == is_prey);
-            of_sort.fold([0, 0], |[done, all], (goal, more)| [done + more, all + wanted(goal)])
-        });
-        let texts = sums.into_iter().zip([Key::HudPlaces, Key::HudDigested]).filter(|([_, all], _)| *all > 0);
-        texts
-            .map(|([done, all], what)| words::text_with(what, &[("done", done.into()), ("all", all.into())]))
-            .collect::<Vec<_>>()
-            .join("  ")
+        let is_prey = |goal: &Goal| matches!(goal, Goal::Digest { .. });
+        let count = |done, all| format!("{done}/{all}");
+        let places = self.goals().filter(|(goal, _)| !is_prey(goal));
+        let [done, all] = places.fold([0, 0], |[done, all], (goal, more)| [done + more, all + wanted(goal)]);
+        // Each kind for itself, in the order of the task.
+        let prey = self.goals().filter(|(goal, _)| is_prey(goal)).map(|(goal, done)| count(done, wanted(goal)));
+        let parts = [
+            (Key::HudPlaces, (all > 0).then(|| count(done, all)).unwrap_or_default()),
+            (Key::HudDigested, prey.collect::<Vec<_>>().join(", ")),
+        ];
+        let told = parts.iter().filter(|(_, counts)| !counts.is_empty());
+        told.map(|(what, counts)| words::text_with(*what, &[("counts", counts.into())])).collect::<Vec<_>>().join("  ")
     }
 }
 
@@ -142,5 +145,14 @@ mod tests {
         let (title, task, fact, source) = (text(), text(), text(), text());
         let slide = Slide { title, task, fact, source, time: 60.0, stars: [20.0, 40.0], goals: Vec::new() };
         assert_eq!([19.0, 20.0, 20.1, 40.0, 41.0].map(|time| stars_for(&slide, time)), [3, 3, 2, 2, 1]);
+    }
+
+    #[test]
+    fn what_is_digested_is_counted_by_kind_and_places_together() {
+        let slide = |name| crate::slides::find(name).unwrap().read().unwrap();
+        let mut attempt = Attempt::new(slide("little-animals"));
+        attempt.after_step(1.0, &[Vec2::new(80.0, 46.0)], |kind| u32::from(kind != Kind::RigidCell));
+        assert_eq!(attempt.summary(), "Places 0/1  Digested 1/4, 1/2, 0/1");
+        assert_eq!(Attempt::new(slide("first-steps")).summary(), "Places 0/3");
     }
 }

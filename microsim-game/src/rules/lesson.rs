@@ -16,10 +16,10 @@ pub struct Lessons {
 }
 
 impl Lessons {
-    /// What to tell now, at a time of the program, s.
-    pub fn pass(&mut self, hints: &Hints, time: f32) -> Option<Key> {
+    /// What to tell now, at a time of the program, s: nothing begins while something else is told in its place.
+    pub fn pass(&mut self, hints: &Hints, time: f32, is_free: bool) -> Option<Key> {
         self.shown = self.shown.filter(|(_, until)| time < *until);
-        if self.shown.is_none() {
+        if self.shown.is_none() && is_free {
             let places = hints.targets.iter().map(|target| match target.readiness {
                 Readiness::Ready => 0,
                 Readiness::TooLarge(_) => 1,
@@ -50,12 +50,23 @@ mod tests {
         };
         let both = hints(&[Readiness::TooLarge(0.7), Readiness::NoRoom]);
         let mut lessons = Lessons::default();
-        assert_eq!(lessons.pass(&hints(&[]), 0.0), None);
-        assert_eq!(lessons.pass(&both, 1.0), Some(LESSONS[1]));
-        assert_eq!(lessons.pass(&hints(&[]), 6.9), Some(LESSONS[1]));
-        assert_eq!(lessons.pass(&both, 7.1), Some(LESSONS[2]));
-        assert_eq!(lessons.pass(&both, 13.2), None);
-        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 14.0), Some(LESSONS[0]));
-        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 30.0), None);
+        assert_eq!(lessons.pass(&hints(&[]), 0.0, true), None);
+        assert_eq!(lessons.pass(&both, 1.0, true), Some(LESSONS[1]));
+        assert_eq!(lessons.pass(&hints(&[]), 6.9, true), Some(LESSONS[1]));
+        assert_eq!(lessons.pass(&both, 7.1, true), Some(LESSONS[2]));
+        assert_eq!(lessons.pass(&both, 13.2, true), None);
+        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 14.0, true), Some(LESSONS[0]));
+        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 30.0, true), None);
+    }
+
+    #[test]
+    fn a_mark_is_explained_after_the_advice_that_a_round_begins_with() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0)).unwrap();
+        let target = PreyTarget { prey, at: Vec2::ZERO, half_extent: 1.0, readiness: Readiness::TooLarge(0.7) };
+        let hints = Hints { targets: vec![target], held: Vec::new() };
+        let mut lessons = Lessons::default();
+        assert_eq!([0.0, 3.0, 6.9].map(|time| lessons.pass(&hints, time, false)), [None; 3]);
+        assert_eq!([7.1, 13.0].map(|time| lessons.pass(&hints, time, true)), [Some(LESSONS[1]); 2]);
     }
 }

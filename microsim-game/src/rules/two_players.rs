@@ -38,6 +38,16 @@ impl TwoPlayers {
         }
     }
 
+    /// What it is about.
+    #[must_use]
+    pub fn about(self) -> Key {
+        match self {
+            Self::Versus => Key::TwoVersusAbout,
+            Self::Together => Key::TwoTogetherAbout,
+            Self::Bot => Key::TwoBotAbout,
+        }
+    }
+
     /// Who steers the second cell, if nobody does.
     #[must_use]
     pub fn bot(self, seed: u64) -> Option<Bot> {

@@ -4,7 +4,7 @@ use super::steer::held_to_crawl;
 use crate::hud::food_chain;
 use crate::hud::marks::Style;
 use crate::rules::food_chain::change::line_of;
-use crate::rules::food_chain::threats_and_victims;
+use crate::rules::food_chain::{FoodChain, threats_and_victims};
 use crate::rules::round::Round;
 use crate::rules::threat::engulfers;
 use crate::ui::pen::Pen;
@@ -36,7 +36,8 @@ pub(super) fn status(round: &Round, cell: OrganismId) -> Option<(String, [f32; 2
     let line = world.view().organisms().filter(|other| line_of(*other) == line_of(cell)).count();
     let time = world.time() as f32;
     let reserve = chain.reserve(cell, time).min(FULL_RESERVE);
-    Some((food_chain::summary(time, chain.size(cell), line.saturating_sub(1)), [reserve, FULL_RESERVE]))
+    let sizes = [chain.size(cell), FoodChain::next_size(cell)];
+    Some((food_chain::summary(time, sizes, line.saturating_sub(1)), [reserve, FULL_RESERVE]))
 }
 
 /// The cell that is looked at: that of a player, or of the first one who lives.
@@ -93,6 +94,13 @@ mod tests {
         name = "player-2"
         at = [70.0, 30.0]
     "#;
+
+    #[test]
+    fn the_status_tells_from_which_size_on_the_body_changes() {
+        let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
+        let (told, _) = status(&round, round.player()).unwrap();
+        assert!(told.starts_with("Lived 0 s  size 1.0/2"), "{told}");
+    }
 
     #[test]
     fn the_own_cell_is_looked_at_and_when_it_is_gone_that_of_the_first_who_lives() {

@@ -61,3 +61,19 @@ fn note(best: Option<u32>) -> String {
 fn todays_seed(context: &AppContext) -> u64 {
     if context.pace.is_exact { 1 } else { (miniquad::date::now() / DAY) as u64 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::page::is_seen_whole;
+    use super::*;
+
+    #[test]
+    fn the_rules_are_seen_whole_in_a_small_window() {
+        for language in &words::LANGUAGES {
+            words::choose(language, || None);
+            for best in [None, Some(LONGEST as u32)] {
+                assert!(is_seen_whole(&note(best)), "{}", note(best));
+            }
+        }
+    }
+}

@@ -90,7 +90,7 @@ impl Screen for FoodChainEnd {
         draw_shade(pen);
         let mut y = 0.14 * pen.screen().y;
         for (size, colour, text) in &self.lines {
-            for line in pen.wrap(*size, text, 0.92 * pen.screen().x) {
+            for line in pen.wrap_evenly(*size, text, 0.92 * pen.screen().x) {
                 let at = Vec2::new(0.5 * pen.screen().x, y);
                 pen.write(at, *size, Align::Centre, *colour, &line);
                 y += pen.line(*size);

@@ -149,8 +149,8 @@ pub enum Overlay {
     Choose([Change; 3], Paused),
     /// Whether to end the program.
     Quit,
-    /// The list of slides, from this one on.
-    Slides(usize),
+    /// The list of slides, with the focus on this one, or on the first that has no star yet.
+    Slides(Option<usize>),
     /// The list of simulations.
     Pick,
     /// The field guide.

@@ -14,6 +14,8 @@ use microsim_core::glam::Vec2;
 const TOP: f32 = 0.3;
 const HEADING: f32 = 0.15;
 const NOTE: f32 = 3.0;
+/// Share of the picture's width that a note takes at most.
+const NOTE_WIDTH: f32 = 0.9;
 /// Height of an item that has room for a picture, lines.
 const TALL: f32 = 2.6;
 /// How dark what lies below gets.
@@ -69,7 +71,7 @@ impl MenuPage {
     /// Writes a note between the heading and the menu, as much of it as there is room for.
     pub(super) fn draw_note(&self, pen: &mut Pen, text: &str) {
         let (screen, line) = (pen.screen(), pen.line(TextSize::Small));
-        let mut lines = pen.wrap(TextSize::Small, text, 0.9 * screen.x);
+        let mut lines = pen.wrap_evenly(TextSize::Small, text, NOTE_WIDTH * screen.x);
         let most = note_lines(pen);
         if most < lines.len() {
             lines.truncate(most);
@@ -98,6 +100,14 @@ fn note_lines(pen: &Pen) -> usize {
     (room / pen.line(TextSize::Small) + 0.01) as usize
 }
 
+/// Whether a small window shows all of a note with the largest text.
+#[cfg(test)]
+pub(super) fn is_seen_whole(note: &str) -> bool {
+    let (pen, measure) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+    let fits = |line: &str| measure(TextSize::Small, line) <= NOTE_WIDTH * pen.screen().x;
+    crate::ui::pen::wrap(note, fits).len() <= note_lines(&pen)
+}
+
 /// Darkens what lies below.
 pub(super) fn draw_shade(pen: &mut Pen) {
     let screen = pen.screen();
@@ -117,12 +127,10 @@ pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
 mod tests {
     use super::*;
     use crate::rules::verdict::chain_verdict;
-    use crate::ui::pen::wrap;
     use crate::words::{self, Key, text, text_with};
 
     #[test]
     fn notes_of_the_lobby_are_seen_whole_in_a_small_window_with_the_largest_text() {
-        let (pen, measure) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
         for language in &words::LANGUAGES {
             words::choose(language, || None);
             let of_code = |key| text_with(key, &[("code", "ABCDEF012345".into())]);
@@ -134,8 +142,7 @@ mod tests {
             let mut notes = [Key::RoomWaits, Key::RoomMatchOn, Key::RoomEntering].map(of_code).to_vec();
             notes.push(text_with(Key::RoomAgain, &[("news", (&news).into())]));
             for note in notes {
-                let lines = wrap(&note, |line| measure(TextSize::Small, line) <= 0.9 * pen.screen().x);
-                assert!(lines.len() <= note_lines(&pen), "{}: {lines:?}", language.code);
+                assert!(is_seen_whole(&note), "{}: {note}", language.code);
             }
         }
     }

@@ -4,7 +4,7 @@ use super::context::AppContext;
 use super::page::MenuPage;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::input::{Action, Input, Move};
-use crate::slides::{self, BuiltinSlide};
+use crate::slides::{self, BuiltinSlide, SLIDES};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{Key, Label};
 
@@ -16,14 +16,25 @@ pub(super) struct Pause {
 
 impl Pause {
     pub(super) fn new(paused: Paused) -> Self {
-        let labels = match paused {
-            Paused::Simulation => [Key::PauseGoOn, Key::PausePhoto, Key::Settings, Key::Title].as_slice(),
-            _ => &[Key::PauseGoOn, Key::PauseRestart, Key::PausePhoto, Key::Settings, Key::Title],
-        };
-        Self {
-            page: MenuPage::new(Key::PauseHeading, labels.iter().map(|&label| MenuItem::new(label)).collect()),
-            paused,
-        }
+        let items = labels(paused).map(MenuItem::new).collect();
+        Self { page: MenuPage::new(Key::PauseHeading, items), paused }
+    }
+}
+
+/// What the menu offers: from a slide and from a round of two also the list that it is of.
+fn labels(paused: Paused) -> impl Iterator<Item = Key> {
+    let restart = (paused != Paused::Simulation).then_some(Key::PauseRestart);
+    let list = list_of(paused).map(|(label, _)| label);
+    let first = [Some(Key::PauseGoOn), restart, Some(Key::PausePhoto), Some(Key::Settings)];
+    first.into_iter().chain([list, Some(Key::Title)]).flatten()
+}
+
+/// The list that something is of, and what it is called.
+fn list_of(paused: Paused) -> Option<(Key, Overlay)> {
+    match paused {
+        Paused::Slide(index) if index < SLIDES.len() => Some((Key::TitleSlides, Overlay::Slides(Some(index)))),
+        Paused::Slide(_) | Paused::TwoPlayers(_) => Some((Key::TitleTwoPlayers, Overlay::TwoPlayers)),
+        _ => None,
     }
 }
 
@@ -41,6 +52,9 @@ impl Screen for Pause {
             Label::Key(Key::PauseRestart) => self.paused.restart(),
             Label::Key(Key::PausePhoto) => Next::Open(Overlay::Photo),
             Label::Key(Key::Settings) => Next::Open(Overlay::Settings),
+            Label::Key(Key::TitleSlides | Key::TitleTwoPlayers) => {
+                list_of(self.paused).map_or(Next::Stay, |(_, list)| Next::Open(list))
+            }
             _ => Next::Show(MainScreen::Title),
         }
     }
@@ -59,5 +73,23 @@ impl Screen for Pause {
 
     fn name(&self) -> String {
         "pause".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::two_players::TwoPlayers;
+
+    #[test]
+    fn a_pause_leads_back_to_the_list_that_was_chosen_from() {
+        assert!(matches!(list_of(Paused::Slide(2)), Some((Key::TitleSlides, Overlay::Slides(Some(2))))));
+        for paused in [Paused::Slide(SLIDES.len()), Paused::TwoPlayers(TwoPlayers::Versus)] {
+            assert!(matches!(list_of(paused), Some((Key::TitleTwoPlayers, Overlay::TwoPlayers))), "{paused:?}");
+        }
+        let labels = |paused| labels(paused).collect::<Vec<_>>();
+        assert_eq!(labels(Paused::Slide(2))[4..], [Key::TitleSlides, Key::Title]);
+        assert_eq!(labels(Paused::Round).len(), 5);
+        assert_eq!(labels(Paused::Simulation), [Key::PauseGoOn, Key::PausePhoto, Key::Settings, Key::Title]);
     }
 }

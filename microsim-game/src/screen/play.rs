@@ -306,11 +306,14 @@ impl Screen for Play {
         let key = digestion_key(&context.settings, covered > 0.0);
         let time = context.motion();
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: key.as_deref() };
-        let lesson = context.lessons.pass(&hints, context.time);
         let is_taken = view.organism(self.seen()).is_some_and(|cell| cell.held_by().is_some());
-        let lesson = is_taken.then_some(Key::HintTaken).or(lesson);
-        let advice = self.advice(&hints, key.as_deref(), covered > 0.0).filter(|_| !is_taken);
-        let advice = advice.or(lesson.map(|lesson| words::text(lesson).to_owned()));
+        let advice = if is_taken {
+            Some(words::text(Key::HintTaken).to_owned())
+        } else {
+            self.advice(&hints, key.as_deref(), covered > 0.0)
+        };
+        let lesson = context.lessons.pass(&hints, context.time, advice.is_none());
+        let advice = advice.or_else(|| lesson.map(|lesson| words::text(lesson).to_owned()));
         let pen = &mut context.pen;
         self.draw_marks(pen, &style, view, &hints);
         self.draw_status(pen, context.settings.reduced_motion);

@@ -51,6 +51,19 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
     ]
 }
 
+/// What a setting does, if its name does not say it.
+fn about(item: usize) -> Option<Key> {
+    match item {
+        EFFORT => Some(Key::SettingsQualityAbout),
+        MOTION => Some(Key::SettingsMotionAbout),
+        DIGESTION => Some(Key::SettingsDigestionAbout),
+        CRAWL => Some(Key::SettingsCrawlAbout),
+        PACE => Some(Key::SettingsPaceAbout),
+        ARROWS => Some(Key::SettingsArrowsAbout),
+        _ => None,
+    }
+}
+
 fn percent(share: f32) -> String {
     words::text_with(Key::Percent, &[("number", (&words::number(100.0 * share, 0)).into())])
 }
@@ -103,6 +116,8 @@ impl Screen for SettingsMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
+        let about = about(self.page.menu.focus()).map_or("", words::text);
+        self.page.draw_note(&mut context.pen, about);
     }
 
     fn menu(&self) -> Option<&Menu> {
@@ -111,5 +126,23 @@ impl Screen for SettingsMenu {
 
     fn name(&self) -> String {
         "settings".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::page::is_seen_whole;
+    use super::*;
+
+    #[test]
+    fn what_settings_do_is_seen_whole_in_a_small_window() {
+        for language in &words::LANGUAGES {
+            words::choose(language, || None);
+            let told: Vec<&str> = (LANGUAGE..=KEYS).filter_map(about).map(words::text).collect();
+            assert_eq!(told.len(), 6);
+            for about in told {
+                assert!(is_seen_whole(about), "{}: {about}", language.code);
+            }
+        }
     }
 }

@@ -80,7 +80,7 @@ fn lines_of(pen: &Pen, told: &[Paragraph], fact: TextSize) -> Vec<Line> {
     let mut lines = Vec::new();
     for (size, colour, text) in told {
         let size = if *size == TextSize::Body { fact } else { *size };
-        for line in pen.wrap(size, text, width) {
+        for line in pen.wrap_evenly(size, text, width) {
             y += 0.5 * pen.line(size);
             lines.push((Vec2::new(0.5 * screen.x, y), size, *colour, line));
             y += 0.5 * pen.line(size);
@@ -112,7 +112,7 @@ fn items(played: Paused, is_won: bool) -> Vec<Item> {
         items.push((Key::SlideEndAgain, Paused::restart));
     }
     items.push((Key::EndWatch, |_| Next::Show(MainScreen::Replay)));
-    items.push((Key::TitleSlides, |played| Next::Open(Overlay::Slides(slide_of(played).unwrap_or_default()))));
+    items.push((Key::TitleSlides, |played| Next::Open(Overlay::Slides(slide_of(played)))));
     items.push((Key::Title, |_| Next::Show(MainScreen::Title)));
     items
 }

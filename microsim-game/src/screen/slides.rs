@@ -15,10 +15,10 @@ pub(super) struct SlideList {
 }
 
 impl SlideList {
-    /// The list, with the focus on one slide.
-    pub(super) fn new(focus: usize, context: &AppContext) -> Self {
+    /// The list, with the focus on one slide, or on the first that has no star yet.
+    pub(super) fn new(focus: Option<usize>, context: &AppContext) -> Self {
         let slides = SLIDES.iter().filter_map(|builtin| Some((builtin.name, builtin.told()?)));
-        let (items, notes) = slides
+        let (items, notes): (Vec<MenuItem>, Vec<String>) = slides
             .map(|(name, slide)| {
                 let best = context.best_times.of(name);
                 let found = |time| {
@@ -31,6 +31,7 @@ impl SlideList {
                 (MenuItem::rated(slide.title.clone(), context.best_times.stars(name, &slide)), note)
             })
             .unzip();
+        let focus = focus.unwrap_or_else(|| first_left(&items));
         let mut page = MenuPage::new(Key::TitleSlides, items);
         page.menu.set_focus(focus);
         Self { page, notes }
@@ -60,5 +61,21 @@ impl Screen for SlideList {
 
     fn name(&self) -> String {
         "slides".to_owned()
+    }
+}
+
+/// The first slide without a star, or the first one when all have some.
+fn first_left(items: &[MenuItem]) -> usize {
+    items.iter().position(|item| item.stars == Some(0)).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_opens_where_the_player_is() {
+        let list = |stars: [u32; 3]| stars.map(|stars| MenuItem::rated("slide", stars));
+        assert_eq!([[0, 0, 0], [1, 0, 3], [3, 2, 0], [1, 1, 1]].map(|stars| first_left(&list(stars))), [0, 1, 2, 0]);
     }
 }

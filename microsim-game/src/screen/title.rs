@@ -41,7 +41,7 @@ type Target = fn() -> Next;
 /// What the menu may offer.
 const ITEMS: [(Key, Target); 11] = [
     (Key::TitlePlay, || Next::Show(MainScreen::Round)),
-    (Key::TitleSlides, || Next::Open(Overlay::Slides(0))),
+    (Key::TitleSlides, || Next::Open(Overlay::Slides(None))),
     (Key::TitleFoodChain, || Next::Open(Overlay::FoodChain)),
     (Key::TitleTwoPlayers, || Next::Open(Overlay::TwoPlayers)),
     (Key::TitleNetwork, || Next::Open(Overlay::Join)),

@@ -235,9 +235,11 @@ impl Menu {
         }
         let (above, below) = (self.first > 0, self.first + layout.visible < self.items.len());
         let end = layout.corner.y + layout.item.y * layout.visible.min(self.items.len()) as f32;
-        for (is_more, y) in [(above, layout.corner.y - 0.2 * layout.item.y), (below, end + 0.2 * layout.item.y)] {
+        let half = 0.5 * layout.item.y;
+        for (is_more, y) in [(above, layout.corner.y + half), (below, end - half)] {
             if is_more {
-                let at = Vec2::new(layout.corner.x + layout.item.x - 0.6 * layout.item.y, y);
+                // Beside the menu: what is written above it is not covered.
+                let at = Vec2::new(layout.corner.x + layout.item.x + 0.9 * pen.line(TextSize::Small), y);
                 pen.label(at, TextSize::Small, Align::Centre, HALO, "...");
             }
         }
@@ -314,6 +316,19 @@ mod tests {
         let chosen = Input { item: Some(1), ..step(Move::Confirm) };
         assert_eq!(menu.update(&chosen, &LAYOUT), Some(MenuChoice::Pick(1)));
         assert_eq!(menu.update(&Input { item: Some(9), ..step(Move::Confirm) }, &LAYOUT), Some(MenuChoice::Pick(4)));
+    }
+
+    #[test]
+    fn that_there_is_more_is_marked_beside_the_menu() {
+        let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+        let layout = MenuLayout { visible: 3, ..MenuLayout::middle(&pen, 0.3) };
+        let mut menu = menu();
+        menu.update(&step(Move::Up), &layout);
+        menu.draw(&mut pen, &layout);
+        let end = layout.corner + Vec2::new(layout.item.x, 3.0 * layout.item.y);
+        let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
+        assert!(corners.iter().all(|at| (layout.corner.y..=end.y).contains(&at.y)), "{corners:?}");
+        assert!(corners.iter().any(|at| at.x > end.x), "{corners:?}");
     }
 
     #[test]

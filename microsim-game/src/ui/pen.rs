@@ -135,6 +135,12 @@ impl Pen {
         wrap(text, |line| self.width(size, line) <= width)
     }
 
+    /// The same in as many lines, which are as even as they can be: no last line of one word.
+    #[must_use]
+    pub fn wrap_evenly(&self, size: TextSize, text: &str, width: f32) -> Vec<String> {
+        evenly(width, |width| self.wrap(size, text, width))
+    }
+
     /// Draws what has been collected: what comes later lies above it.
     pub fn flush(&mut self) {
         self.canvas.flush();
@@ -172,6 +178,14 @@ pub(crate) fn wrap(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     lines
 }
 
+/// The lines of the least width, from half of this one on, that are not more than those of this one.
+fn evenly(width: f32, wrap: impl Fn(f32) -> Vec<String>) -> Vec<String> {
+    let lines = wrap(width);
+    let count = lines.len();
+    let narrower = (1..=12).filter(|_| count > 1).map(|k| wrap(width * (1.0 - k as f32 / 24.0)));
+    narrower.take_while(|lines| lines.len() <= count).last().unwrap_or(lines)
+}
+
 /// Size of text for a picture: few different ones, for every one needs glyphs of its own.
 fn factor(screen: Vec2) -> f32 {
     let fit = (screen / USUAL).min_element();
@@ -188,6 +202,14 @@ mod tests {
     fn long_lines_are_broken_between_words() {
         let lines = wrap("a.toml:\nline 5: unknown field, incomprehensibilities\n", |line| line.len() <= 14);
         assert_eq!(lines, ["a.toml:", "line 5:", "unknown field,", "incomprehensibilities"]);
+    }
+
+    #[test]
+    fn no_line_is_left_with_one_word_if_others_can_do_with_less() {
+        let lines = |text: &str, width| evenly(width, |width| wrap(text, |line| line.len() as f32 <= width));
+        assert_eq!(lines("one two three four five", 19.0), ["one two three", "four five"]);
+        assert_eq!(lines("one two three", 19.0), ["one two three"]);
+        assert_eq!(lines("incomprehensibilities one", 5.0), ["incomprehensibilities", "one"]);
     }
 
     #[test]

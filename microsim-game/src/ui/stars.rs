@@ -1,6 +1,7 @@
 //! Stars, drawn as shapes: the font has none.
 
 use super::pen::Pen;
+use crate::draw::palette::fade;
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 
@@ -10,6 +11,8 @@ const STARS: u32 = 3;
 const POINTS: [(f32, f32); 5] = [(0.0, -1.0), (0.951, -0.309), (0.588, 0.809), (-0.588, 0.809), (-0.951, -0.309)];
 const NOTCHES: [(f32, f32); 5] = [(0.588, -0.809), (0.951, 0.309), (0.0, 1.0), (-0.951, 0.309), (-0.588, -0.809)];
 const DEPTH: f32 = 0.42;
+/// How strong a star is that is still to be got.
+const FAINT: f32 = 0.35;
 
 /// Width of three stars of this radius.
 #[must_use]
@@ -17,11 +20,12 @@ pub fn stars_width(radius: f32) -> f32 {
     STARS as f32 * 2.3 * radius
 }
 
-/// Draws three stars around a point, of which so many are full and the others small.
+/// Draws three stars around a point, of which so many are full and the others small and faint.
 pub fn draw_stars(pen: &mut Pen, middle: Vec2, radius: f32, stars: u32, colour: Color) {
     for k in 0..STARS {
         let at = middle + Vec2::new((k as f32 - 1.0) * 2.3 * radius, 0.0);
-        draw_star(pen, at, if k < stars { radius } else { 0.45 * radius }, colour);
+        let (radius, colour) = if k < stars { (radius, colour) } else { (0.45 * radius, fade(colour, FAINT)) };
+        draw_star(pen, at, radius, colour);
     }
 }
 
@@ -53,5 +57,14 @@ mod tests {
         };
         let areas = [0, 1, 2, 3].map(area);
         assert!(areas.windows(2).all(|pair| pair[1] > 1.3 * pair[0]), "{areas:?}");
+    }
+
+    #[test]
+    fn stars_that_are_not_got_are_faint() {
+        let mut pen = Pen::bare();
+        draw_stars(&mut pen, Vec2::splat(100.0), 10.0, 1, READY);
+        let strengths: Vec<u8> = pen.canvas().corners().map(|(.., colour)| colour[3]).collect();
+        let (got, others) = strengths.split_at(strengths.len() / 3);
+        assert!(others.iter().all(|strength| *strength < got[0] / 2), "{strengths:?}");
     }
 }

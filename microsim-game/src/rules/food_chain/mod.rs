@@ -144,6 +144,12 @@ impl FoodChain {
         cytoplasm(cell) as f32 / self.first as f32
     }
 
+    /// Size from which a cell can be changed once more.
+    #[must_use]
+    pub fn next_size(cell: OrganismView<'_>) -> f32 {
+        2.0_f32.powi(1 + changes(cell) as i32)
+    }
+
     /// Time until a cell has nothing left to live on, at its present hunger, s.
     #[must_use]
     pub fn reserve(&self, cell: OrganismView<'_>, time: f32) -> f32 {
@@ -156,7 +162,7 @@ impl FoodChain {
     pub fn after_step(&mut self, world: &World, player: usize, cell: OrganismId) -> OrganismId {
         let view = world.view();
         let heir = view.organism(cell).or_else(|| view.organisms().find(|other| line_of(*other) == Some(player)));
-        let has_doubled = heir.is_some_and(|heir| self.size(heir) >= 2.0_f32.powi(1 + changes(heir) as i32));
+        let has_doubled = heir.is_some_and(|heir| self.size(heir) >= Self::next_size(heir));
         let line = &mut self.lines[player];
         if has_doubled {
             line.offer_changes();
