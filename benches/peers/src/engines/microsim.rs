@@ -36,8 +36,20 @@ pub(super) fn baseline_platelets(field: &PlateletField) -> Box<dyn Peer> {
 
 /// The same on two threads.
 pub(super) fn two_threads(field: &PlateletField) -> Box<dyn Peer> {
-    let threads = ThreadPoolBuilder::new().num_threads(2).build().expect("threads can be started");
-    Box::new(Microsim { threads: Some(threads), ..platelet_field(field) })
+    Box::new(Microsim { threads: Some(two()), ..platelet_field(field) })
+}
+
+/// Two threads.
+pub(super) fn two() -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(2).build().expect("threads can be started")
+}
+
+/// A step on some threads, or on the calling one.
+pub(super) fn step(world: &mut World, inputs: &Inputs, threads: Option<&ThreadPool>) {
+    match threads {
+        Some(threads) => threads.install(|| world.step(inputs)),
+        None => world.step(inputs),
+    }
 }
 
 fn platelet_field(field: &PlateletField) -> Microsim {
@@ -102,11 +114,7 @@ impl Peer for Microsim {
         for (&pusher, &goal) in self.pushers.iter().zip(goals) {
             self.inputs.set(pusher, Intent::toward(goal).expect("goals lie in the room"));
         }
-        let Self { world, threads, inputs, .. } = self;
-        match threads {
-            Some(threads) => threads.install(|| world.step(inputs)),
-            None => world.step(inputs),
-        }
+        step(&mut self.world, &self.inputs, self.threads.as_ref());
     }
 
     fn positions(&self) -> Vec<Vec2> {

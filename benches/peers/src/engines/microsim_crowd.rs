@@ -1,11 +1,13 @@
 //! microsim-core's amoeboid cells, through its public API, each told in every step where to go.
 
 use super::Peer;
+use super::microsim::{step, two};
 use crate::scene::DAMPING;
 use crate::scene::DT;
 use crate::scene::crowd::{Crowd, MAX_SPEED, cell_spec};
 use microsim_core::glam::Vec2;
 use microsim_core::{Inputs, Intent, OrganismId, Placement, Role, World, WorldConfig};
+use rayon::ThreadPool;
 
 /// Fewest that amoeboid cells accept at this time step: a substep is at most 6 ms.
 const SUBSTEPS: u32 = 3;
@@ -16,10 +18,21 @@ struct Microsim {
     world: World,
     cells: Vec<OrganismId>,
     inputs: Inputs,
+    /// Where steps run; without it, on the calling thread.
+    threads: Option<ThreadPool>,
 }
 
 /// Amoeboid cells of the library.
 pub(super) fn crowd(crowd: &Crowd) -> Box<dyn Peer> {
+    Box::new(made(crowd, None))
+}
+
+/// The same on two threads.
+pub(super) fn two_threads(crowd: &Crowd) -> Box<dyn Peer> {
+    Box::new(made(crowd, Some(two())))
+}
+
+fn made(crowd: &Crowd, threads: Option<ThreadPool>) -> Microsim {
     let config = WorldConfig {
         size: crowd.size,
         dt: DT,
@@ -33,7 +46,7 @@ pub(super) fn crowd(crowd: &Crowd) -> Box<dyn Peer> {
     let spec = cell_spec().into();
     let spawn = |at: &Vec2| world.spawn(&spec, Placement::at(at.x, at.y)).expect("the crowd fits the room");
     let cells: Vec<OrganismId> = crowd.centres.iter().map(spawn).collect();
-    Box::new(Microsim { world, cells, inputs: Inputs::new() })
+    Microsim { world, cells, inputs: Inputs::new(), threads }
 }
 
 impl Peer for Microsim {
@@ -43,7 +56,7 @@ impl Peer for Microsim {
             let goal = Intent::toward(at + direction * FAR).expect("goals are not far beyond the room");
             self.inputs.set(cell, goal);
         }
-        self.world.step(&self.inputs);
+        step(&mut self.world, &self.inputs, self.threads.as_ref());
     }
 
     fn positions(&self) -> Vec<Vec2> {

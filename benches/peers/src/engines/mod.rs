@@ -85,6 +85,7 @@ pub(crate) const ENGINES: &[Engine] = &[
         name: "microsim-2-threads",
         settings: "the same on two threads, time on the wall",
         platelets: Some(microsim::two_threads),
+        crowd: Some(microsim_crowd::two_threads),
         clock: Clock::Wall,
         ..Engine::NONE
     },
