@@ -96,7 +96,7 @@ impl Attempt {
         // Each kind for itself, in the order of the task.
         let prey = self.goals().filter(|(goal, _)| is_prey(goal)).map(|(goal, done)| count(done, wanted(goal)));
         let parts = [
-            (Key::HudPlaces, (all > 0).then(|| count(done, all)).unwrap_or_default()),
+            (Key::HudPlaces, if all > 0 { count(done, all) } else { String::new() }),
             (Key::HudDigested, prey.collect::<Vec<_>>().join(", ")),
         ];
         let told = parts.iter().filter(|(_, counts)| !counts.is_empty());
