@@ -12,9 +12,17 @@ pub(crate) const CHUNK: usize = 2048;
 /// Particles from which on threads are worth their trouble.
 const LARGE: usize = 8192;
 
+/// Contacts from on which they are.
+const MANY: usize = 40_000;
+
 /// Whether a world with so many particles is stepped in parts.
 pub(crate) fn is_large(particles: usize) -> bool {
     particles > LARGE
+}
+
+/// Whether so many contacts are worth more than waking threads for them.
+pub(crate) fn are_many(contacts: usize) -> bool {
+    contacts > MANY
 }
 
 /// Does work with parts. If it is on many particles, it runs as a whole in the pool, unless it is on one of its threads
@@ -34,10 +42,10 @@ pub(crate) fn for_each<T: Send>(parts: Vec<T>, work: impl Fn(T) + Send + Sync) {
 }
 
 /// Does each strip of the room, of which each may touch what is in the next one: in a large world every second one at the same time,
-/// then those between them.
+/// then those between them. `contacts` is how many all strips have: with few, the order is the same, on one thread.
 pub(crate) fn for_each_strip<T: Send>(
     strips: impl Iterator<Item = T>,
-    particles: usize,
+    [particles, contacts]: [usize; 2],
     work: impl Fn(T) + Send + Sync,
 ) {
     if !is_large(particles) {
@@ -47,8 +55,9 @@ pub(crate) fn for_each_strip<T: Send>(
     for (k, strip) in strips.enumerate() {
         if k % 2 == 0 { even.push(strip) } else { odd.push(strip) }
     }
-    for_each(even, &work);
-    for_each(odd, &work);
+    for strips in [even, odd] {
+        if are_many(contacts) { for_each(strips, &work) } else { strips.into_iter().for_each(&work) }
+    }
 }
 
 /// What each part gives, in their order. One at a time may be taken over by another thread: fewer would leave it waiting at

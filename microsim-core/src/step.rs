@@ -128,7 +128,12 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         project_constraints(world, h, substep);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        project_contacts(world);
+        let found = &world.scratch.broad_phase;
+        if parallel::are_many(found.contacts.len() + found.ring_contacts.in_disc_contacts()) {
+            project_contacts(world);
+        } else {
+            serial(world, project_contacts);
+        }
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         world.yield_links(substep, h);

@@ -103,6 +103,11 @@ impl Contacts {
         self.others.clear();
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.strips.iter().map(Vec::len).sum::<usize>() + self.others.len()
+    }
+
     /// All of them, always in the same order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Contact> {
         self.strips.iter().flatten().chain(&self.others)

@@ -5,6 +5,9 @@ use super::ring_search::{NO_RING, RingQuery, RingStrip, Strips};
 use crate::parallel;
 use crate::particle::Particles;
 
+/// A disc near links takes as long as so many contacts of two discs, most of which do not touch.
+const EACH: usize = 10;
+
 /// All discs near rings, found once per step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RingContacts {
@@ -45,6 +48,11 @@ impl RingContacts {
             let contacts = strip.lists().into_iter().flatten();
             contacts.map(|contact| (contact, contact.links_in(&strip.links)))
         })
+    }
+
+    /// How many contacts of two discs take as long as all of them.
+    pub(crate) fn in_disc_contacts(&self) -> usize {
+        EACH * self.strips.iter().flat_map(RingStrip::lists).map(Vec::len).sum::<usize>()
     }
 
     /// The contacts of each strip, which are of nodes and discs in this strip and the next one, and then those between strips that

@@ -46,7 +46,7 @@ impl DiscContacts {
         &mut self,
         contacts: &mut Contacts,
         particles: &mut Particles,
-        bodies: LinkedBlocks<'a, impl Fn(usize) -> &'a [Constraint] + Sync>,
+        bodies: LinkedBlocks<'a, impl Fn(usize) -> &'a [Constraint]>,
         (impacts, recorder): (&mut Vec<Impact>, &mut ContactRecorder),
         h: f32,
         dispatch: Dispatch,
@@ -56,8 +56,9 @@ impl DiscContacts {
             outcome.pressed.begin(h);
             outcome.recorder.begin_like(recorder);
         }
+        let count = contacts.len();
         let lists = contacts.lists_mut().zip(&mut self.outcomes);
-        project_lists(lists, particles, |(contacts, Outcome { pressed, impacts, recorder }), p| {
+        project_lists(lists, count, particles, |(contacts, Outcome { pressed, impacts, recorder }), p| {
             contact::project(contacts, p, impacts, recorder, |contact| pressed.note(contact, p));
         });
         self.relink(contacts, particles, bodies, dispatch);
@@ -71,7 +72,7 @@ impl DiscContacts {
         &mut self,
         contacts: &mut Contacts,
         particles: &mut Particles,
-        bodies: LinkedBlocks<'a, impl Fn(usize) -> &'a [Constraint] + Sync>,
+        bodies: LinkedBlocks<'a, impl Fn(usize) -> &'a [Constraint]>,
         dispatch: Dispatch,
     ) {
         let is_long = self.lists().any(|pressed| pressed.is_long);
@@ -83,9 +84,7 @@ impl DiscContacts {
         if self.lists().all(|pressed| pressed.contacts.is_empty()) {
             return;
         }
-        parallel::for_each(self.outcomes.iter_mut().collect(), |outcome: &mut Outcome| {
-            outcome.pressed.find_blocks(bodies.blocks);
-        });
+        self.outcomes.iter_mut().for_each(|outcome| outcome.pressed.find_blocks(bodies.blocks));
         if is_long {
             self.find_pressed(bodies.blocks.len(), false);
             (0..PASSES).for_each(|_| self.project_pressed(particles, &bodies, dispatch));
@@ -116,16 +115,17 @@ impl DiscContacts {
     fn project_pressed<'a>(
         &mut self,
         particles: &mut Particles,
-        bodies: &LinkedBlocks<'a, impl Fn(usize) -> &'a [Constraint] + Sync>,
+        bodies: &LinkedBlocks<'a, impl Fn(usize) -> &'a [Constraint]>,
         dispatch: Dispatch,
     ) {
         let pressed = bodies.blocks.iter().zip(&self.pressed).filter(|(_, is_pressed)| **is_pressed);
         let mut pressed: Vec<_> = pressed.map(|(block, _)| (block, ())).collect();
-        parallel::for_each(block::batches(&mut pressed, particles), |mut batch| {
+        for mut batch in block::batches(&mut pressed, particles) {
             let links = (bodies.links)(batch.template());
             batch.project_links(links, dispatch);
-        });
-        project_lists(self.outcomes.iter_mut(), particles, |Outcome { pressed, recorder, .. }, p| {
+        }
+        let count = self.lists().map(|pressed| pressed.contacts.len()).sum();
+        project_lists(self.outcomes.iter_mut(), count, particles, |Outcome { pressed, recorder, .. }, p| {
             contact::project(&mut pressed.contacts, p, &mut Vec::new(), recorder, |_| {});
         });
     }
@@ -134,17 +134,18 @@ impl DiscContacts {
 /// Does each list: the strips as [`parallel::for_each_strip`] does, then the last one alone.
 fn project_lists<T: Send>(
     lists: impl Iterator<Item = T>,
+    contacts: usize,
     particles: &mut Particles,
     work: impl Fn(T, PositionCells<'_>) + Send + Sync,
 ) {
-    let count = particles.len();
+    let counts = [particles.len(), contacts];
     #[expect(unsafe_code, reason = "strips are disjoint, but their particles do not lie side by side")]
     // SAFETY: a contact of a strip is of two bodies in the rows of the strip and the row after it, see `Bodies::pairs`; no
     // particle is in two bodies. So every second strip has particles of its own, and these run at the same time.
     let positions = unsafe { DisjointPositions::new(particles.position_cells()) };
     let mut strips: Vec<T> = lists.collect();
     let others = strips.pop();
-    parallel::for_each_strip(strips.into_iter(), count, |list| work(list, positions.cells()));
+    parallel::for_each_strip(strips.into_iter(), counts, |list| work(list, positions.cells()));
     others.into_iter().for_each(|list| work(list, positions.cells()));
 }
 

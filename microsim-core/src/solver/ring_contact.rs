@@ -66,7 +66,7 @@ fn for_each_list(
     recorder: &mut ContactRecorder,
     work: impl Fn(&mut RingContactList<'_>, &NodesOfRings, &mut ContactRecorder, PositionCells<'_>) -> u32 + Send + Sync,
 ) -> u32 {
-    let particles = p.len();
+    let counts = [p.len(), rings.in_disc_contacts()];
     #[expect(unsafe_code, reason = "strips are disjoint, but their particles do not lie side by side")]
     // SAFETY: a list of a strip has rings and discs of this strip and the next one, see `RingContacts::lists_mut`; a ring is in
     // one strip, with all its nodes, and so is a disc. Every second strip has particles of its own, and these run at the same time.
@@ -82,7 +82,7 @@ fn for_each_list(
         let Part { lists, recorder, count } = part;
         *count = lists.iter_mut().map(|list| work(list, nodes, recorder, positions.cells())).sum();
     };
-    parallel::for_each_strip(strips.iter_mut(), particles, do_part);
+    parallel::for_each_strip(strips.iter_mut(), counts, do_part);
     do_part(&mut others);
     strips.push(others);
     strips.iter_mut().for_each(|part| recorder.append(&mut part.recorder));
