@@ -11,8 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) const CHUNK: usize = 2048;
 /// Particles from which on threads are worth their trouble.
 const LARGE: usize = 8192;
-
-/// Contacts from on which they are.
+/// Contacts from which on waking threads for them is.
 const MANY: usize = 40_000;
 
 /// Whether a world with so many particles is stepped in parts.
@@ -20,9 +19,9 @@ pub(crate) fn is_large(particles: usize) -> bool {
     particles > LARGE
 }
 
-/// Whether so many contacts are worth more than waking threads for them.
+/// Whether there are threads, and so many contacts are worth more than waking them.
 pub(crate) fn are_many(contacts: usize) -> bool {
-    contacts > MANY
+    cfg!(feature = "parallel") && contacts > MANY
 }
 
 /// Does work with parts. If it is on many particles, it runs as a whole in the pool, unless it is on one of its threads

@@ -128,12 +128,7 @@ fn advance(world: &mut World, inputs: &Inputs, finished: &mut impl FnMut(Phase))
         project_constraints(world, h, substep);
         finished(Phase::ProjectConstraints);
         // Contacts last, walls after discs: the last projection wins, and nothing may end a substep inside anything.
-        let found = &world.scratch.broad_phase;
-        if parallel::are_many(found.contacts.len() + found.ring_contacts.in_disc_contacts()) {
-            project_contacts(world);
-        } else {
-            serial(world, project_contacts);
-        }
+        project_contacts(world);
         finished(Phase::ProjectContacts);
         update_velocities(world, h);
         world.yield_links(substep, h);
@@ -258,6 +253,15 @@ fn membranes(organisms: &Organisms) -> impl Iterator<Item = (&Membrane, &[u32])>
 }
 
 fn project_contacts(world: &mut World) {
+    let found = &world.scratch.broad_phase;
+    if parallel::are_many(found.contacts.len() + found.ring_contacts.in_disc_contacts()) {
+        project_all_contacts(world);
+    } else {
+        serial(world, project_all_contacts);
+    }
+}
+
+fn project_all_contacts(world: &mut World) {
     project_discs(world);
     let World { config, particles, obstacles, organisms, guard, scratch, dispatch, .. } = world;
     let broad_phase = &mut scratch.broad_phase;

@@ -122,7 +122,8 @@ pub(super) fn relaxation(h: f32) -> f32 {
 
 /// Second pass, with the `distances` of the first: how far the members are moved, by the constraints (eq. 12), with what is
 /// `added` to their push at a distance, and by viscosity, which takes a share of the differences between the displacement of a
-/// particle in this substep and those of its neighbours (XSPH, eq. 17). Weights are relative to the rest density, so that what one gains another loses.
+/// particle in this substep and those of its neighbours (XSPH, eq. 17). Weights are relative to the rest density, so that what one
+/// gains another loses.
 #[inline(always)]
 pub(super) fn shifts(
     group: &Group,
