@@ -224,11 +224,12 @@ fn claim(world: &World, index: u32, organism: &Organism, cell: Subject, owned: &
         let place = owned.get_mut(i as usize).filter(|place| **place == NO_OWNER);
         *place.ok_or_else(|| in_cell(cell, i, "it does not exist or has another owner"))? = index;
     }
-    let are_own = |ring: &[u32]| {
-        let mut known = ring.to_vec();
+    // Rings are projected on several threads at the same time: none may have a node of another one.
+    let mut known = Vec::new();
+    let mut are_own = |ring: &[u32]| {
+        known.extend_from_slice(ring);
         known.sort_unstable();
-        known.dedup();
-        known.len() == ring.len() && ring.iter().all(|&i| owned.get(i as usize) == Some(&index))
+        known.is_sorted_by(|a, b| a < b) && ring.iter().all(|&i| owned.get(i as usize) == Some(&index))
     };
     let is_own = are_own(&organism.outline_particles().collect::<Vec<_>>());
     cell.must(is_own, || "its outline is not of its own particles".to_owned())?;

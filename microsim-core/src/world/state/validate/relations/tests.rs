@@ -240,6 +240,11 @@ fn damage_to_prey_inside_and_to_phagosomes_is_found() {
         },
         in_none,
     );
+    let share_a_node = |w: &mut World| {
+        let cell = organism(w, CELL);
+        cell.phagosomes[1].ring[0] = cell.phagosomes[0].ring[0];
+    };
+    finds(&world, share_a_node, "a phagosome is not of its own particles");
     let let_out = |w: &mut World| {
         meal(w).phase = MealPhase::Touching(0.0);
         let prey = meal(w).prey;
