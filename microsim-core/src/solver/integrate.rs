@@ -185,6 +185,24 @@ mod tests {
     }
 
     #[test]
+    fn one_of_many_that_exceeds_the_speed_limit_is_found() {
+        let exceeds = |p: &mut Particles, ranges: [Range<usize>; 2]| {
+            exceed_speed_limit(p, ranges.into_iter(), Dispatch::default(), 5.0, 0.01)
+        };
+        for fast in [0, CHUNK - 1, CHUNK + 9, 3 * CHUNK + 4] {
+            let mut p = Particles::default();
+            p.extend(3 * CHUNK + 5);
+            let whole = |p: &Particles| [0..CHUNK + 7, CHUNK + 7..p.len()];
+            let without = |p: &Particles| [0..fast, fast + 1..p.len()];
+            let (whole, without) = (whole(&p), without(&p));
+            assert!(!exceeds(&mut p, whole.clone()), "nothing moves");
+            p.y[fast] = 0.051;
+            assert!(exceeds(&mut p, whole), "{fast}");
+            assert!(!exceeds(&mut p, without), "without {fast}");
+        }
+    }
+
+    #[test]
     fn nothing_moves_farther_than_the_speed_limit() {
         let mut p = line(1.0, [1.0, 1.0]);
         p.vx[0] = 1e6;
