@@ -339,8 +339,10 @@ mod tests {
     #[test]
     fn eight_lanes_give_the_bits_of_one() {
         let mut rng = Rng::new(5, 3);
-        for (count, rings) in [(5, 3), (24, 8), (40, 11)] {
+        // The last ones in a world that is projected in portions.
+        for (count, rings, others) in [(5, 3, 0), (24, 8, 0), (40, 11, 0), (24, 70, 9000)] {
             let (mut side_by_side, nodes, stiffness) = crooked(count, rings, &mut rng);
+            side_by_side.extend(others);
             let mut alone = side_by_side.clone();
             let targets: Vec<RingTarget<'_>> = nodes
                 .iter()
