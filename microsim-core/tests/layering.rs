@@ -3,7 +3,7 @@
 #[path = "common/sources.rs"]
 mod sources;
 
-use sources::{Source, circles, sources};
+use sources::{Source, circles, circles_of_modules, sources};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -159,6 +159,18 @@ fn circles_are_found_but_for_those_of_a_parent_and_its_children() {
     assert_eq!(house("", "use crate::a::One;"), Vec::<String>::new());
     assert_eq!(house("use two::Two;", "use crate::a::shared;"), ["a <-> a/one <-> a/two <-> b", "a <-> a/two <-> b"]);
     assert_eq!(house("use crate::b::B;", "use crate::a::One;"), ["a <-> a/one <-> b"]);
+}
+
+#[test]
+fn circles_of_folders_are_found_where_no_files_form_one() {
+    let file = |path: &str, text: &str| Source::new(PathBuf::from(path), text);
+    let down = file("a/one.rs", "use crate::b::two::Two;");
+    let back = file("b/three.rs", "use crate::a::four::Four;");
+    let rest = [file("a/four.rs", ""), file("b/two.rs", "")];
+    let all: Vec<_> = rest.into_iter().chain([down, back]).collect();
+    assert_eq!(circles(&all), BTreeSet::new());
+    assert_eq!(circles_of_modules(&all).into_iter().collect::<Vec<_>>(), ["a <-> b"]);
+    assert_eq!(circles_of_modules(&all[..3]), BTreeSet::new());
 }
 
 fn of_the_core() -> Vec<Source> {

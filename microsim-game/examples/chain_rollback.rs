@@ -3,7 +3,7 @@
 
 use microsim_core::Intent;
 use microsim_core::scenario::Scenario;
-use microsim_game::network::pacing::Pacing;
+use microsim_game::network::rollback_pacing::Pacing;
 use microsim_game::rules::bot::{Bot, Policy};
 use microsim_game::rules::food_chain::{self, Deed};
 use microsim_game::rules::round::Round;

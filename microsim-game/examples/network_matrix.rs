@@ -10,7 +10,7 @@
 mod virtual_match;
 
 use microsim_core::scenario::Scenario;
-use microsim_game::network::pacing::Pacing;
+use microsim_game::network::rollback_pacing::Pacing;
 use microsim_game::platform;
 use microsim_game::rules::round::Round;
 use std::sync::Mutex;

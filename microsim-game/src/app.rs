@@ -1,8 +1,8 @@
 //! The program: a loop of input, screens and a drawn frame.
 
-use crate::input::device::Device;
 use crate::input::script::InputScript;
 use crate::input::{Action, Input};
+use crate::input_device::Device;
 use crate::platform;
 use crate::scene_source::SceneSource;
 use crate::screen::context::{AppContext, Asked};

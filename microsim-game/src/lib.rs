@@ -20,9 +20,11 @@ pub mod camera;
 pub mod clock;
 pub mod convert;
 pub mod draw;
+pub mod game_choice;
 pub mod guide;
 pub mod hud;
 pub mod input;
+pub mod input_device;
 pub mod microscope;
 pub mod network;
 #[cfg(target_arch = "wasm32")]
@@ -46,9 +48,9 @@ pub mod words;
 
 use app::{App, RunOptions};
 use args::{Answer, Args};
+use game_choice::GameChoice;
 use input::script::InputScript;
 use microsim_core::replay::Replay;
-use rules::game::GameChoice;
 use rules::round::Round;
 use scene_source::SceneSource;
 use screen::MainScreen;

@@ -3,7 +3,7 @@
 use microsim_core::replay::{Player, Replay};
 use microsim_core::scenario::Scenario;
 use microsim_core::{Intent, World, glam::Vec2};
-use microsim_game::network::pacing::Pacing;
+use microsim_game::network::rollback_pacing::Pacing;
 use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
 use microsim_game::rules::round::Round;

@@ -6,7 +6,7 @@ mod virtual_match;
 
 use microsim_core::Rng;
 use microsim_core::scenario::Scenario;
-use microsim_game::network::pacing::Pacing;
+use microsim_game::network::rollback_pacing::Pacing;
 use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
 use microsim_game::rules::food_chain::change::{self, changes};

@@ -154,8 +154,31 @@ pub(crate) fn circles(sources: &[Source]) -> BTreeSet<String> {
         .collect();
     let has_parent = |circle: &&BTreeSet<&Vec<String>>| circle.iter().any(|p| circle.iter().all(|c| c.starts_with(p)));
     let through_parents = knots(&all);
-    let found = knots(&downward).into_iter().chain(through_parents.into_iter().filter(|circle| !has_parent(&circle)));
-    found.map(|circle| circle.into_iter().map(|file| file.join("/")).collect::<Vec<_>>().join(" <-> ")).collect()
+    knots(&downward)
+        .into_iter()
+        .chain(through_parents.into_iter().filter(|circle| !has_parent(&circle)))
+        .map(named)
+        .collect()
+}
+
+/// Circles of top-level modules: their files use each other, though no two files need do.
+pub(crate) fn circles_of_modules(sources: &[Source]) -> BTreeSet<String> {
+    let files: Files = sources.iter().map(|source| (source.own_path(), source)).collect();
+    let tops: BTreeSet<Vec<String>> =
+        files.keys().filter_map(|own| own.first()).map(|name| vec![name.clone()]).collect();
+    let top_of = |file: &Vec<String>| tops.get(file.get(..1)?);
+    let mut graph: Graph = tops.iter().map(|top| (top, BTreeSet::new())).collect();
+    for (own, source) in &files {
+        let used = neighbours(own, source, &files).into_iter().filter_map(top_of);
+        if let Some((top, of_top)) = top_of(own).and_then(|top| Some((top, graph.get_mut(top)?))) {
+            of_top.extend(used.filter(|used| *used != top));
+        }
+    }
+    knots(&graph).into_iter().map(named).collect()
+}
+
+fn named(circle: BTreeSet<&Vec<String>>) -> String {
+    circle.into_iter().map(|file| file.join("/")).collect::<Vec<_>>().join(" <-> ")
 }
 
 /// The files of a crate by the path of their module.

@@ -1,6 +1,5 @@
 //! What the player does in one frame, whether by mouse, keyboard and gamepad or from a script.
 
-pub mod device;
 pub mod gamepad;
 pub mod keys;
 pub mod script;

@@ -1,6 +1,6 @@
 //! What frames cost on this machine, and how many are predicted so that they can be taken again in time.
 
-use super::pacing::Pacing;
+use super::rollback_pacing::Pacing;
 use std::time::Duration;
 
 /// Longest time in which frames are taken again at once, s: three pictures of a screen, half of what is felt as a delay (0.1 s:

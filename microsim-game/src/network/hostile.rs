@@ -1,8 +1,8 @@
 //! What is done with the bytes that a fuzzer makes up (folder `fuzz`). The tests below do the same with the committed corpus.
 
 use super::message::{Message, write};
-use super::pacing::Pacing;
 use super::packet::Packet;
+use super::rollback_pacing::Pacing;
 use super::session::Session;
 use super::told::Told;
 use crate::rules::round::Round;

@@ -1,6 +1,6 @@
 //! What is played in a match: the first member of a room chooses it.
 
-use super::pacing::Pacing;
+use super::rollback_pacing::Pacing;
 use crate::rules::attempt::Attempt;
 use crate::rules::food_chain;
 use crate::rules::round::Round;

@@ -5,8 +5,8 @@
 
 use super::cost::Cost;
 use super::moment::{Moment, Tally};
-use super::pacing::Pacing;
 use super::packet::{Packet, Run, Takeover};
+use super::rollback_pacing::Pacing;
 use super::told::Told;
 use super::track::{Guest, Track};
 use super::transport::Member;

@@ -13,7 +13,6 @@ pub mod brake;
 pub mod chain_bot;
 pub mod flight;
 pub mod food_chain;
-pub mod game;
 pub mod hint;
 pub mod lesson;
 pub mod path;

@@ -2,7 +2,7 @@
 
 use microsim_core::scenario::Scenario;
 use microsim_core::{Intent, Rng};
-use microsim_game::network::pacing::Pacing;
+use microsim_game::network::rollback_pacing::Pacing;
 use microsim_game::network::session::Session;
 use microsim_game::network::told::Told;
 use microsim_game::network::transport::Member;

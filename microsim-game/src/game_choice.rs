@@ -1,6 +1,6 @@
 //! Which game is played: a scenario with changed values, and the seed of its rounds.
 
-use super::round::Round;
+use crate::rules::round::Round;
 use crate::scene_source::SceneSource;
 use microsim_core::scenario::Scenario;
 

@@ -1,10 +1,9 @@
 //! Mouse, keyboard and gamepads.
 
-use super::gamepad::Hand;
-use super::keys::Keys;
-use super::{Action, Input, Move};
-use crate::convert;
-use crate::platform;
+use crate::input::gamepad::Hand;
+use crate::input::keys::Keys;
+use crate::input::{Action, Input, Move};
+use crate::{convert, platform};
 use macroquad::input::{
     KeyCode, MouseButton, get_last_key_pressed, is_key_down, is_key_pressed, is_mouse_button_down,
     is_mouse_button_pressed, mouse_position, mouse_wheel, utils,
