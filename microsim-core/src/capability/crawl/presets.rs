@@ -59,16 +59,16 @@ impl PseudopodParams {
     /// A neutrophil: a fan of one or two short pseudopods, the second strongly inhibited by the first (Van Haastert 2020,
     /// "Unified control of amoeboid pseudopod extension").
     pub const NEUTROPHIL: Self = Self {
-        start_rate: 9.0,
-        life: 0.27,
-        width: 0.1,
+        start_rate: 12.0,
+        life: 0.33,
+        width: 0.14,
         coverage: 0.35,
         split_share: 0.7,
-        split_angle: 78.0,
+        split_angle: 57.0,
         split_spread: 14.0,
         alternation: 0.9,
-        goal_bias: 0.2,
-        tip_speed: 2.3,
+        goal_bias: 0.03,
+        tip_speed: 3.0,
         stiffness: 0.15,
         slack: 0.33,
     };
@@ -76,13 +76,12 @@ impl PseudopodParams {
     /// Dictyostelium discoideum: narrow pseudopods that split at some 60 degrees, mostly on alternating sides (Bosgraaf and
     /// Van Haastert 2009, PLoS ONE 4, e5253).
     pub const DICTYOSTELIUM: Self = Self {
-        start_rate: 9.5,
+        start_rate: 13.0,
         life: 0.35,
         width: 0.12,
         coverage: 0.4,
         split_share: 0.85,
-        split_angle: 95.0,
-        goal_bias: 0.06,
+        goal_bias: 0.03,
         tip_speed: 2.5,
         stiffness: 0.1,
         slack: 0.4,
@@ -91,12 +90,12 @@ impl PseudopodParams {
 
     /// Amoeba proteus: a few long lobopodia that live on while others start anywhere (Mast 1926, J. Morphol. 41, 347).
     pub const AMOEBA_PROTEUS: Self = Self {
-        start_rate: 4.0,
+        start_rate: 5.0,
         life: 0.8,
         width: 0.1,
         coverage: 0.3,
         split_share: 0.4,
-        goal_bias: 0.08,
+        goal_bias: 0.05,
         tip_speed: 2.2,
         stiffness: 0.12,
         slack: 0.5,
