@@ -200,7 +200,12 @@ change-wide-mouth-about = Kořist smí být o třetinu větší a kousneš i am�
 
 guide-heading = Průvodce { $found }/{ $all }
 guide-read = Enter nebo klepnutí: číst
-guide-hidden = Ještě nenalezeno. Ptej se v simulaci "Co je to?", jez, děl se, dívej se jinak.
+guide-ask = Ještě nenalezeno. Zeptej se na to "Co je to?" v simulaci "{ $scene }".
+guide-eat = Ještě nenalezeno. Stráv něco takového ve hře nebo na preparátu.
+guide-take = Ještě nenalezeno. Pohlť čelem potravu a stráv ji.
+guide-divide = Ještě nenalezeno. Rozděl svou buňku v potravním řetězci.
+guide-look = Ještě nenalezeno. Podívej se takto: { $key } mění optiku.
+guide-own = Ještě nenalezeno. Zeptej se "Co je to?" na těleso ve vlastním scénáři.
 guide-unkept = Co jsi našel, nelze uložit: { $error }
 
 ## Dva hráči
@@ -315,7 +320,7 @@ scene-divide-about = buňka se mezi krevními destičkami rozdělí; poloviny se
 scene-empty = Prázdný prostor
 scene-empty-about = prázdný prostor, se kterým lze začít
 scene-game = Hra
-scene-game-about = 90 sekund na jídlo: nejdřív agar, pak trepky, větší a větší (bakalářská práce, 3.3.2)
+scene-game-about = 90 sekund na jídlo: nejdřív agar, pak trepky, větší a větší
 scene-grow = Buňka roste
 scene-grow-about = buňka pojídá agar, tráví ho a roste
 scene-hunt = Neutrofil loví

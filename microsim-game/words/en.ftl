@@ -194,7 +194,12 @@ change-wide-mouth-about = Prey may be a third larger, and you bite amoebae your 
 
 guide-heading = Field guide { $found }/{ $all }
 guide-read = Enter or a click: read
-guide-hidden = Not found yet. Ask "What is this?" in a simulation, eat, divide, look in other ways.
+guide-ask = Not found yet. Ask "What is this?" about it in the simulation "{ $scene }".
+guide-eat = Not found yet. Digest one in a round or on a slide.
+guide-take = Not found yet. Take food in with your front, and digest it.
+guide-divide = Not found yet. Divide your cell in the food chain.
+guide-look = Not found yet. Look in this way: { $key } changes the optics.
+guide-own = Not found yet. Ask "What is this?" about a body in a scenario of your own.
 guide-unkept = What you found cannot be kept: { $error }
 
 ## Two players
