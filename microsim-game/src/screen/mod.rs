@@ -6,6 +6,7 @@ mod chain_scene;
 mod choose;
 mod contest;
 pub mod context;
+mod done;
 mod end;
 mod end_menu;
 mod follow;
