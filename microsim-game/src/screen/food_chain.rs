@@ -18,6 +18,9 @@ pub(super) const LONGEST: f32 = 3600.0;
 pub(super) struct FoodChainMenu {
     page: MenuPage,
     best: Option<u32>,
+    goal: Option<String>,
+    /// The best time in today's water, s.
+    today: Option<u32>,
 }
 
 impl FoodChainMenu {
@@ -25,7 +28,9 @@ impl FoodChainMenu {
         let items = [Key::ChainToday, Key::ChainOther, Key::Back].map(MenuItem::new);
         let best = context.scores.of(NAME, LONGEST).next();
         let best = best.map(|score| score.points);
-        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best }
+        let records = &context.chain_records;
+        let (goal, today) = (records.best.next_goal(), records.of_day(todays_seed(context)));
+        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best, goal, today }
     }
 }
 
@@ -41,7 +46,8 @@ impl Screen for FoodChainMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        self.page.draw_note(&mut context.pen, &note(self.best));
+        let goal = self.goal.as_deref().filter(|_| self.page.menu.focus() == 0);
+        self.page.draw_note(&mut context.pen, &note(self.best, goal, self.today));
     }
 
     fn name(&self) -> String {
@@ -49,16 +55,21 @@ impl Screen for FoodChainMenu {
     }
 }
 
-/// What is said of the game, and of the best time, s.
-fn note(best: Option<u32>) -> String {
+/// What is said of the game and the best time, s; at today's water, to one who has played, how it went there and the next goal.
+fn note(best: Option<u32>, goal: Option<&str>, today: Option<u32>) -> String {
     let about = words::text(Key::ChainAbout);
-    best.map_or(about.to_owned(), |time| {
-        words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())])
-    })
+    match (best, goal, today) {
+        (None, ..) => about.to_owned(),
+        (_, Some(goal), Some(time)) => {
+            words::text_with(Key::ChainTodayBest, &[("time", time.into()), ("goal", goal.into())])
+        }
+        (_, Some(goal), None) => words::text_with(Key::ChainTodayNew, &[("goal", goal.into())]),
+        (Some(time), None, _) => words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())]),
+    }
 }
 
 /// The number of the day, but for pictures that must come out the same.
-fn todays_seed(context: &AppContext) -> u64 {
+pub(super) fn todays_seed(context: &AppContext) -> u64 {
     if context.pace.is_exact { 1 } else { (miniquad::date::now() / DAY) as u64 }
 }
 
@@ -66,14 +77,23 @@ fn todays_seed(context: &AppContext) -> u64 {
 mod tests {
     use super::super::page::is_seen_whole;
     use super::*;
+    use crate::rules::food_chain::feats::Feats;
 
     #[test]
     fn the_rules_are_seen_whole_in_a_small_window() {
         for language in &words::LANGUAGES {
             words::choose(language, || None);
-            for best in [None, Some(LONGEST as u32)] {
-                assert!(is_seen_whole(&note(best)), "{}", note(best));
+            let (longest, goal) = (Some(LONGEST as u32), Feats::default().next_goal());
+            let notes = [
+                note(None, goal.as_deref(), None),
+                note(longest, None, None),
+                note(longest, goal.as_deref(), None),
+                note(longest, goal.as_deref(), longest),
+            ];
+            for note in &notes {
+                assert!(is_seen_whole(note), "{note}");
             }
+            assert!((1..4).all(|k| notes[k] != notes[k - 1]), "{notes:?}");
         }
     }
 }

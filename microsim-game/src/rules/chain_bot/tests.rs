@@ -115,6 +115,20 @@ fn the_larger_bites_and_the_smaller_is_gone_in_the_end() {
     assert!(bites::cytoplasm(large) > 80, "who bites keeps what it has");
 }
 
+#[test]
+#[ignore = "for release builds"]
+fn a_novice_meets_the_first_choice_in_most_rounds_and_lives_about_two_minutes() {
+    let rounds = each_seed(|seed| {
+        let (round, choices) = play(Skill::Novice, seed, LONGEST);
+        (round.result().life.unwrap().time, !choices.is_empty())
+    });
+    let mut times: Vec<f32> = rounds.iter().map(|(time, _)| *time).collect();
+    times.sort_by(f32::total_cmp);
+    let met = rounds.iter().filter(|(_, has_chosen)| *has_chosen).count();
+    println!("{met} of {} have chosen; {times:.0?}", rounds.len());
+    assert!(4 * met >= 3 * rounds.len() && (90.0..150.0).contains(&times[times.len() / 2]), "{met}, {times:.0?}");
+}
+
 /// What is found with each seed, on all cores.
 fn each_seed<T: Send>(find: impl Fn(u64) -> T + Sync) -> Vec<T> {
     let seeds: Vec<u64> = seeds().collect();
@@ -127,34 +141,45 @@ fn each_seed<T: Send>(find: impl Fn(u64) -> T + Sync) -> Vec<T> {
     })
 }
 
-/// How long lives are, s, the shortest first, and how many end eaten.
-fn lives(skill: Skill) -> Vec<f32> {
-    let lives = each_seed(|seed| {
-        let life = play(skill, seed, LONGEST).0.result().life.unwrap();
-        println!("{skill:?}, seed {seed}: {:.0} s, {:?}", life.time, life.fate);
-        life
+/// Rounds of a bot: how long its lives are, s, the shortest first, and of the times that each change was offered the share in which it
+/// was taken.
+fn lives(skill: Skill) -> (Vec<f32>, [f64; 6]) {
+    let rounds = each_seed(|seed| {
+        let (round, choices) = play(skill, seed, LONGEST);
+        let life = round.result().life.unwrap();
+        println!("{skill:?}, seed {seed}: {:.0} s, {:?}, {choices:?}", life.time, life.fate);
+        (life, choices)
     });
-    let mut times: Vec<f32> = lives.iter().map(|life| life.time).collect();
+    let mut times: Vec<f32> = rounds.iter().map(|(life, _)| life.time).collect();
     times.sort_by(f32::total_cmp);
-    let eaten = lives.iter().filter(|life| life.fate == Some(Fate::Eaten)).count();
-    println!("{skill:?}: {times:.0?}, {eaten} eaten");
-    times
+    let eaten = rounds.iter().filter(|(life, _)| life.fate == Some(Fate::Eaten)).count();
+    let choices: Vec<_> = rounds.iter().flat_map(|(_, choices)| choices).collect();
+    let taken = Change::ALL.map(|change| {
+        let offered = choices.iter().filter(|(offer, _)| offer.contains(&change)).count();
+        choices.iter().filter(|(_, taken)| *taken == change).count() as f64 / offered as f64
+    });
+    let met = rounds.iter().filter(|(_, choices)| !choices.is_empty()).count();
+    println!("{skill:?}: {times:.0?}, {eaten} eaten; {met} have chosen, {} times: {taken:.2?}", choices.len());
+    (times, taken)
 }
 
 #[test]
 #[ignore = "for release builds"]
 fn whoever_does_nothing_starves_within_half_a_minute() {
-    assert!(lives(Skill::Idle).iter().all(|time| *time <= 30.0));
+    assert!(lives(Skill::Idle).0.iter().all(|time| *time <= 30.0));
 }
 
 #[test]
 #[ignore = "for release builds"]
-fn lives_are_in_the_order_of_skill() {
-    let medians = Skill::ALL.map(lives).map(|times| times[times.len() / 2]);
+fn lives_are_in_the_order_of_skill_and_each_change_is_taken_now_and_then() {
+    let found = Skill::ALL.map(lives);
+    let medians = found.each_ref().map(|(times, _)| times[times.len() / 2]);
     assert!(medians.is_sorted(), "{medians:?}");
+    let taken = found[Skill::ALL.len() - 1].1;
+    assert!(taken.iter().all(|share| (0.2..=0.5).contains(share)), "{taken:.2?}");
 }
 
-/// What each change is worth at each doubling of a survivor's round; it goes on with one that is offered, by chance.
+/// What each change is worth at each offer of a survivor's round; it goes on with one that is offered, by chance.
 fn worths(seed: u64) -> Vec<[(f64, u32); 6]> {
     let mut round = round(seed);
     let mut bot = ChainBot::new(Skill::Survivor, &round);
@@ -186,6 +211,6 @@ fn share_best(worths: &[[(f64, u32); 6]], change: usize) -> f64 {
 fn each_change_is_the_best_of_three_now_and_then() {
     let worths: Vec<_> = each_seed(worths).into_iter().flatten().collect();
     let shares: [f64; 6] = std::array::from_fn(|change| share_best(&worths, change));
-    println!("{} doublings, {:?}: {shares:.2?}", worths.len(), Change::ALL);
+    println!("{} offers, {:?}: {shares:.2?}", worths.len(), Change::ALL);
     assert!(shares.iter().all(|share| (0.2..=0.5).contains(share)), "{shares:.2?}");
 }
