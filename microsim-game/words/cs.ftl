@@ -18,7 +18,7 @@ percent = { $number } %
 ## Úvod
 
 title-motto = buňka pod mikroskopem
-title-goal = Potravní řetězec: { $goal }
+title-goal = Potravní řetězec: { $what } { $done }/{ $least }
 title-version = verze { $version }
 title-play = Hrát
 title-slides = Preparáty
@@ -178,10 +178,11 @@ chain-today-best = Tuto vodu mají dnes všichni. Žil jsi v ní { $time } s. { 
 chain-today-new = Tuto vodu mají dnes všichni. { $goal }
 chain-water = Voda { $seed }: stejná pro všechny, kdo hrají toto číslo.
 chain-done = Drobná potrava { $small }, buňky { $cells }, sousta { $bites }, změny těla { $changes }
-chain-goals = Splněné cíle: { $done } z { $all }, nové: { $new }
+chain-goals = Splněné cíle: { $done } z { $all }
+chain-goals-new = Nově splněné cíle: { $new }, celkem { $done } z { $all }
 chain-next = Další cíl v jednom životě: { $what } { $done }/{ $least }
 feat-changes = změny těla
-feat-time = sekundy
+feat-time = sekundy života
 feat-small = drobná potrava
 feat-cells = buňky
 feat-divisions = dělení

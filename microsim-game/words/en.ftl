@@ -16,7 +16,7 @@ percent = { $number } %
 ## Title
 
 title-motto = a cell under the microscope
-title-goal = Food chain: { $goal }
+title-goal = Food chain: { $what } { $done }/{ $least }
 title-version = version { $version }
 title-play = Play
 title-slides = Slides
@@ -172,10 +172,11 @@ chain-today-best = Everybody has this water today. You lived { $time } s in it. 
 chain-today-new = Everybody has this water today. { $goal }
 chain-water = Water { $seed }: the same for all who play this number.
 chain-done = Small food { $small }, cells { $cells }, bites { $bites }, changes of the body { $changes }
-chain-goals = Goals reached: { $done } of { $all }, new: { $new }
+chain-goals = Goals reached: { $done } of { $all }
+chain-goals-new = New goals reached: { $new }, in all { $done } of { $all }
 chain-next = Next goal, in one life: { $what } { $done }/{ $least }
 feat-changes = changes of the body
-feat-time = seconds
+feat-time = seconds alive
 feat-small = small food
 feat-cells = cells
 feat-divisions = divisions

@@ -64,7 +64,7 @@ impl Pulses {
             let [from, to] = ring.radii;
             let radius = unit * style.time.map_or(0.5 * (from + to), |_| from + (to - from) * share);
             let at = style.camera.to_screen(ring.at);
-            pen.canvas().arc(at, radius, 0.22 * unit, 1.0, fade(INK, 0.4 * (1.0 - share)));
+            pen.canvas().arc(at, radius, 0.22 * unit, 1.0, fade(INK, 0.7 * (1.0 - share)));
             pen.canvas().arc(at, radius, 0.11 * unit, 1.0, fade(ring.colour, 1.0 - share));
         }
     }

@@ -5,6 +5,7 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, new_seed};
 use crate::input::Input;
 use crate::rules::food_chain::NAME;
+use crate::rules::food_chain::feats::Feats;
 use crate::ui::menu::{Menu, MenuItem};
 use crate::words::{self, Key};
 use macroquad::miniquad;
@@ -18,6 +19,7 @@ pub(super) const LONGEST: f32 = 3600.0;
 pub(super) struct FoodChainMenu {
     page: MenuPage,
     best: Option<u32>,
+    /// The next goal of one who has played.
     goal: Option<String>,
     /// The best time in today's water, s.
     today: Option<u32>,
@@ -29,7 +31,9 @@ impl FoodChainMenu {
         let best = context.scores.of(NAME, LONGEST).next();
         let best = best.map(|score| score.points);
         let records = &context.chain_records;
-        let (goal, today) = (records.best.next_goal(), records.of_day(todays_seed(context)));
+        // One who has not played yet is told the rules.
+        let goal = records.best.next_goal(Key::ChainNext).filter(|_| records.best != Feats::default());
+        let today = records.of_day(todays_seed(context));
         Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best, goal, today }
     }
 }
@@ -59,11 +63,11 @@ impl Screen for FoodChainMenu {
 fn note(best: Option<u32>, goal: Option<&str>, today: Option<u32>) -> String {
     let about = words::text(Key::ChainAbout);
     match (best, goal, today) {
-        (None, ..) => about.to_owned(),
         (_, Some(goal), Some(time)) => {
             words::text_with(Key::ChainTodayBest, &[("time", time.into()), ("goal", goal.into())])
         }
         (_, Some(goal), None) => words::text_with(Key::ChainTodayNew, &[("goal", goal.into())]),
+        (None, None, _) => about.to_owned(),
         (Some(time), None, _) => words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())]),
     }
 }
@@ -77,15 +81,14 @@ pub(super) fn todays_seed(context: &AppContext) -> u64 {
 mod tests {
     use super::super::page::is_seen_whole;
     use super::*;
-    use crate::rules::food_chain::feats::Feats;
 
     #[test]
     fn the_rules_are_seen_whole_in_a_small_window() {
         for language in &words::LANGUAGES {
             words::choose(language, || None);
-            let (longest, goal) = (Some(LONGEST as u32), Feats::default().next_goal());
+            let (longest, goal) = (Some(LONGEST as u32), Feats::default().next_goal(Key::ChainNext));
             let notes = [
-                note(None, goal.as_deref(), None),
+                note(None, None, None),
                 note(longest, None, None),
                 note(longest, goal.as_deref(), None),
                 note(longest, goal.as_deref(), longest),

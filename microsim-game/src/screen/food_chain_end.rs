@@ -88,8 +88,9 @@ fn told_of(life: &Life, [before, now]: [Feats; 2]) -> Vec<Paragraph> {
     let [done, all] = now.goals();
     let new = done - before.goals()[0];
     let counts = [("new", (new as u32).into()), ("done", (done as u32).into()), ("all", (all as u32).into())];
-    told.push((TextSize::Body, READY, words::text_with(Key::ChainGoals, &counts), 2));
-    told.extend(now.next_goal().map(|goal| (TextSize::Body, READY, goal, 0)));
+    let key = if new > 0 { Key::ChainGoalsNew } else { Key::ChainGoals };
+    told.push((TextSize::Body, READY, words::text_with(key, &counts), 2));
+    told.extend(now.next_goal(Key::ChainNext).map(|goal| (TextSize::Body, READY, goal, 0)));
     told
 }
 
@@ -156,7 +157,7 @@ mod tests {
                 let lived = words::text_with(Key::ChainLived, &[("time", 1234.into())]);
                 let mut told = vec![(TextSize::Large, HALO, lived, 0), (TextSize::Body, READY, rank(9), 4)];
                 told.extend(told_of(&life, [Feats::default(), best]));
-                assert!(told.iter().any(|part| part.2 == best.next_goal().unwrap()));
+                assert!(told.iter().any(|part| part.2 == best.next_goal(Key::ChainNext).unwrap()));
                 assert!(told.iter().all(|part| !part.2.contains("--")), "no command");
                 for (screen, factor) in [((640.0, 360.0), 1.5), ((1280.0, 720.0), 1.0)] {
                     let (pen, _) = Pen::measured(screen.into(), factor);

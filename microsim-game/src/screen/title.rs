@@ -65,8 +65,7 @@ impl Title {
         let targets = offered(context.last_game.is_some(), platform::CAN_QUIT);
         let items = targets.iter().map(|&(label, _)| MenuItem::new(label)).collect();
         let best = context.chain_records.best;
-        let goal = best.next_goal().filter(|_| best != Feats::default());
-        let goal = goal.map(|goal| words::text_with(Key::TitleGoal, &[("goal", (&goal).into())]));
+        let goal = best.next_goal(Key::TitleGoal).filter(|_| best != Feats::default());
         Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets, goal }
     }
 }

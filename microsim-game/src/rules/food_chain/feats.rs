@@ -54,9 +54,9 @@ impl Feats {
         [MEASURES.iter().map(reached).sum(), MEASURES.iter().map(|(_, _, wanted)| wanted.len()).sum()]
     }
 
-    /// The goal that is nearest, with what the player has of it; `None` when all are reached.
+    /// The goal that is nearest, with what the player has of it, in the words of a text; `None` when all are reached.
     #[must_use]
-    pub fn next_goal(&self) -> Option<String> {
+    pub fn next_goal(&self, text: Key) -> Option<String> {
         let open = MEASURES.iter().filter_map(|(what, of, wanted)| {
             let least = wanted.iter().copied().find(|least| of(self) < *least)?;
             Some((*what, of(self), least))
@@ -66,7 +66,7 @@ impl Feats {
         let nearest = open.reduce(|a, b| if share(&b) > share(&a) { b } else { a });
         nearest.map(|(what, done, least)| {
             let args = [("what", words::text(what).into()), ("done", done.into()), ("least", least.into())];
-            words::text_with(Key::ChainNext, &args)
+            words::text_with(text, &args)
         })
     }
 }
@@ -77,13 +77,13 @@ mod tests {
 
     #[test]
     fn the_nearest_goal_is_named_with_what_is_there_of_it() {
-        let next = |feats: Feats| feats.next_goal().unwrap();
+        let next = |feats: Feats| feats.next_goal(Key::ChainNext).unwrap();
         assert_eq!(next(Feats::default()), "Next goal, in one life: changes of the body 0/1");
         let some = Feats { changes: 1, time: 67, small: 9, ..Feats::default() };
-        assert_eq!(next(some), "Next goal, in one life: seconds 67/120");
+        assert_eq!(next(some), "Next goal, in one life: seconds alive 67/120");
         assert_eq!((Feats::default().goals(), some.goals()), ([0, 20], [2, 20]));
         let all = Feats { time: 600, changes: 8, small: 100, cells: 15, bites: 100, divisions: 3 };
-        assert_eq!((all.next_goal(), all.goals()), (None, [20, 20]));
+        assert_eq!((all.next_goal(Key::ChainNext), all.goals()), (None, [20, 20]));
     }
 
     #[test]
