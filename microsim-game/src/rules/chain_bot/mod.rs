@@ -41,6 +41,9 @@ const RANDOM_INTERVAL: u64 = 120;
 const NOVICE_INTERVAL: u64 = 45;
 const NOVICE_ERROR: f32 = 0.6;
 const NOVICE_IDLE: f32 = 0.2;
+/// Time without progress after which who finds ways goes elsewhere, s, and for how many steps: a grown cell may not fit a gap.
+const STALLED: f32 = 1.5;
+const DETOUR: u64 = 120;
 /// How long a trial of a change plays on, s, and how many trials there are of each.
 const TRIAL: f64 = 20.0;
 const TRIALS: u64 = 2;
@@ -54,6 +57,8 @@ pub struct ChainBot {
     intent: Intent,
     /// Steps by which it decides sooner.
     phase: u64,
+    /// Where it goes in place of a way that is blocked, and until which step.
+    detour: Option<(Vec2, u64)>,
 }
 
 impl ChainBot {
@@ -62,7 +67,7 @@ impl ChainBot {
     pub fn new(skill: Skill, round: &Round) -> Self {
         let world = round.world();
         let (rng, map) = (Rng::new(world.config().seed, 7 << 60), PathMap::new(world));
-        Self { skill, rng, map, intent: Intent::REST, phase: 0 }
+        Self { skill, rng, map, intent: Intent::REST, phase: 0, detour: None }
     }
 
     /// Plays a step. Returns the change that it has chosen before, if there was one to choose.
@@ -128,17 +133,25 @@ impl ChainBot {
         let Some(cell) = round.world().view().organism(round.player()) else { return };
         let goal = match self.skill {
             Skill::Idle => None,
-            Skill::Random => {
-                let size = round.world().config().size;
-                Some(Vec2::new(self.rng.range(0.0, size.x), self.rng.range(0.0, size.y)))
-            }
+            Skill::Random => Some(self.anywhere(round)),
             Skill::Novice => self.blunder(round, cell),
             Skill::Forager => self.food(round, cell, &[]),
             Skill::Survivor => self.survive(round, cell),
         };
         let finds_ways = matches!(self.skill, Skill::Forager | Skill::Survivor);
+        let now = round.world().step_index();
+        self.detour = self.detour.filter(|(_, until)| now < *until);
+        if finds_ways && self.detour.is_none() && cell.stalled_for() > STALLED {
+            self.detour = Some((self.anywhere(round), now + DETOUR));
+        }
+        let goal = self.detour.map(|(place, _)| place).or(goal);
         let next = goal.map(|goal| if finds_ways { self.map.next(cell.centroid(), goal) } else { goal });
         self.intent = next.and_then(|next| Intent::toward(next).ok()).unwrap_or(Intent::REST).digesting(true);
+    }
+
+    fn anywhere(&mut self, round: &Round) -> Vec2 {
+        let size = round.world().config().size;
+        Vec2::new(self.rng.range(0.0, size.x), self.rng.range(0.0, size.y))
     }
 
     /// Beside the nearest food, or nowhere.
