@@ -88,11 +88,8 @@ mod tests {
         for (is_taken, grows) in [(false, false), (true, true)] {
             let sizes = |time| {
                 let mut pulses = Pulses::default();
-                if is_taken {
-                    pulses.take(Vec2::new(80.0, 45.0))
-                } else {
-                    pulses.call(Vec2::new(80.0, 45.0))
-                }
+                let answer = if is_taken { Pulses::take } else { Pulses::call };
+                answer(&mut pulses, Vec2::new(80.0, 45.0));
                 [0.05, 0.2, TIME].map(|elapsed| {
                     pulses.pass(elapsed);
                     size(&pulses, time)
