@@ -140,8 +140,13 @@ impl Screen for Title {
         pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
         if layout.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
-            let told = self.goal.as_deref().unwrap_or_else(|| words::text(Key::TitleMotto));
-            pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), told);
+            match &self.goal {
+                Some(goal) => pen.label(motto, TextSize::Body, Align::Left, HALO, goal),
+                None => {
+                    let colour = fade(HALO, 0.85);
+                    pen.write(motto, TextSize::Body, Align::Left, colour, words::text(Key::TitleMotto));
+                }
+            }
         }
         self.menu.draw(pen, &layout);
         let version = words::text_with(Key::TitleVersion, &[("version", env!("CARGO_PKG_VERSION").into())]);
