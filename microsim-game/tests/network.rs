@@ -164,7 +164,7 @@ fn who_comes_late_takes_a_bots_cell_and_else_watches_without_slowing_anybody() {
     assert!(seats == [Some(1), Some(0), None] || seats == [Some(1), None, Some(0)], "{seats:?}");
 }
 
-/// A food chain of three in a small room: the second cell has doubled already, and the third is small and starves within seconds.
+/// A food chain of three in a small room: the second cell is large enough for a change, and the third is small and starves within seconds.
 const CHAIN: &str = r#"
     schema = 1
     name = "food-chain"

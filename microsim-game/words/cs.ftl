@@ -18,6 +18,7 @@ percent = { $number } %
 ## Úvod
 
 title-motto = buňka pod mikroskopem
+title-goal = Potravní řetězec: { $what } { $done }/{ $least }
 title-version = verze { $version }
 title-play = Hrát
 title-slides = Preparáty
@@ -108,8 +109,8 @@ hint-two-players = Hráč 1: drž levé tlačítko myši a lez. Hráč 2: šipky
 hint-taken = Pohlcuje tě větší améba: nemůžeš se hýbat a ona tě stráví.
 hint-chain-crawl = Drž { $what }, lez a tlač se čelem na potravu.
 hint-chain-clock = Hodiny ukazují, jak dlouho ti potrava vystačí: bez další zahyneš hladem.
-hint-chain-rivals = Soupeři jdou po tvém pachu. Kroužek: můžeš ho sníst. Výstražná značka: sní tebe.
-hint-chain-giant = Po tvém pachu jdou i obři. Soupeři mezerami projdou, obři ne.
+hint-chain-rivals = Blíží se soupeři, jdou po pachu. Kroužek: můžeš ho sníst. Výstražná značka: sní tebe.
+hint-chain-giant = Blíží se obři, jdou po pachu. Uteč: soupeři mezerami projdou, obři ne.
 hint-chain-divide = { $key }: buňka se rozdělí a sestra je druhý život.
 hint-chain-button = Tlačítko
 lesson-ready = Zelená šipka: na pohlcení této buňky už máš dost velké tělo.
@@ -168,21 +169,34 @@ slide-end-left = { $task } { $done }
 
 ## Potravní řetězec
 
-chain-about = Jez, nebo zahyneš hladem. Obrům uteč mezerami. Při každém zdvojnásobení si zvolíš změnu těla.
+chain-about = Jez, nebo zahyneš hladem. Obrům uteč mezerami. Jak rosteš, volíš si změny těla.
 chain-best = { $about } Rekord: { $time } s.
 chain-today = Dnešní voda
 chain-other = Jiná voda
 chain-same = Stejná voda
-chain-command = Znovu totéž: { $command }
-chain-link = Odkaz na ni je v nabídce u pravého okraje.
-chain-water = Voda { $seed }.
+chain-today-best = Tuto vodu mají dnes všichni. Žil jsi v ní { $time } s. { $goal }
+chain-today-new = Tuto vodu mají dnes všichni. { $goal }
+chain-water = Voda { $seed }: stejná pro všechny, kdo hrají toto číslo.
+chain-done = Drobná potrava { $small }, buňky { $cells }, sousta { $bites }, změny těla { $changes }
+chain-goals = Splněné cíle: { $done } z { $all }
+chain-goals-new = Nově splněné cíle: { $new }, celkem { $done } z { $all }
+chain-next = Další cíl v jednom životě: { $what } { $done }/{ $least }
+feat-changes = změny těla
+feat-time = sekundy života
+feat-small = drobná potrava
+feat-cells = buňky
+feat-divisions = dělení
+feat-bites = sousta z améb
 chain-wins = Nejdelší život: { $name }, { $best } s ku { $others } s
 chain-draw = Remíza, všichni vydrželi { $points } s
 chain-draw-best = Remíza nejlepších, každý { $points } s
 chain-lived = Tvůj rod žil { $time } s
-chain-starved = Zahynul hladem. Améba, která nenajde potravu, se zakulatí a vytvoří cystu, nebo uhyne; tahle ji hledala až do konce.
-chain-eaten = Větší améba ho snědla, sousto po soustu. Entamoeba histolytica tak zabíjí živé buňky: trogocytóza (Ralston a další, 2014, Nature 508).
-change-heading = Velikost je dvojnásobná: vyber si
+chain-starved = Zahynul hladem. Větší buňky potřebují víc: jdi, kde je drobné potravy hodně, a ber buňky pod zelenou šipkou.
+chain-starved-fact = Améba, která nenajde potravu, se zakulatí a vytvoří cystu, nebo uhyne; tahle ji hledala až do konce.
+chain-eaten = Větší améba ho snědla. Od výstražné značky hned odlez mezerou; velké buňky jedí soupeře.
+chain-eaten-alone = Větší améba ho snědla. Od výstražné značky uteč a včas se rozděl: sestra je druhý život.
+chain-eaten-fact = Entamoeba histolytica zabíjí živé buňky sousto po soustu: trogocytóza (Ralston a další, 2014, Nature 508).
+change-heading = Vyrostl jsi: zvol si
 change-speed = Rychlé tělo
 change-speed-about = Lezeš o 15 % rychleji.
 change-sticky-front = Lepkavé čelo
@@ -200,7 +214,12 @@ change-wide-mouth-about = Kořist smí být o třetinu větší a kousneš i am�
 
 guide-heading = Průvodce { $found }/{ $all }
 guide-read = Enter nebo klepnutí: číst
-guide-hidden = Ještě nenalezeno. Ptej se v simulaci "Co je to?", jez, děl se, dívej se jinak.
+guide-ask = Ještě nenalezeno. Zeptej se na to "Co je to?" v simulaci "{ $scene }".
+guide-eat = Ještě nenalezeno. Stráv něco takového ve hře nebo na preparátu.
+guide-take = Ještě nenalezeno. Pohlť čelem potravu a stráv ji.
+guide-divide = Ještě nenalezeno. Rozděl svou buňku v potravním řetězci.
+guide-look = Ještě nenalezeno. Podívej se takto: { $key } mění optiku.
+guide-own = Ještě nenalezeno. Zeptej se "Co je to?" na těleso ve vlastním scénáři.
 guide-unkept = Co jsi našel, nelze uložit: { $error }
 
 ## Dva hráči
@@ -315,7 +334,7 @@ scene-divide-about = buňka se mezi krevními destičkami rozdělí; poloviny se
 scene-empty = Prázdný prostor
 scene-empty-about = prázdný prostor, se kterým lze začít
 scene-game = Hra
-scene-game-about = 90 sekund na jídlo: nejdřív agar, pak trepky, větší a větší (bakalářská práce, 3.3.2)
+scene-game-about = 90 sekund na jídlo: nejdřív agar, pak trepky, větší a větší
 scene-grow = Buňka roste
 scene-grow-about = buňka pojídá agar, tráví ho a roste
 scene-hunt = Neutrofil loví

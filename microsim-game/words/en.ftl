@@ -16,6 +16,7 @@ percent = { $number } %
 ## Title
 
 title-motto = a cell under the microscope
+title-goal = Food chain: { $what } { $done }/{ $least }
 title-version = version { $version }
 title-play = Play
 title-slides = Slides
@@ -106,8 +107,8 @@ hint-two-players = Player 1: hold the left mouse button to crawl. Player 2: arro
 hint-taken = A larger amoeba takes you in: you cannot move, and it digests you.
 hint-chain-crawl = Hold { $what } to crawl, and push your front against food.
 hint-chain-clock = The clock shows how long your food lasts: without more you starve.
-hint-chain-rivals = Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you.
-hint-chain-giant = Giants follow your scent too. Rivals fit through the gaps, giants do not.
+hint-chain-rivals = Rivals are coming, after your scent. A ring: you can eat it. A warning sign: it eats you.
+hint-chain-giant = Giants are coming, after your scent. Flee: rivals fit through the gaps, giants do not.
 hint-chain-divide = { $key } divides your cell: the sister is a second life.
 hint-chain-button = The button
 lesson-ready = A green arrow: you are large enough to take this cell in.
@@ -162,21 +163,34 @@ slide-end-left = { $task } { $done }
 
 ## Food chain
 
-chain-about = Eat or starve. Flee from giants through gaps. Each time you double in size, you change your body.
+chain-about = Eat or starve. Flee from giants through gaps. As you grow, you change your body.
 chain-best = { $about } Best: { $time } s.
 chain-today = Today's water
 chain-other = Other water
 chain-same = Same water
-chain-command = The same again: { $command }
-chain-link = The menu at the right edge has a link to it.
-chain-water = Water { $seed }.
+chain-today-best = Everybody has this water today. You lived { $time } s in it. { $goal }
+chain-today-new = Everybody has this water today. { $goal }
+chain-water = Water { $seed }: the same for all who play this number.
+chain-done = Small food { $small }, cells { $cells }, bites { $bites }, changes of the body { $changes }
+chain-goals = Goals reached: { $done } of { $all }
+chain-goals-new = New goals reached: { $new }, in all { $done } of { $all }
+chain-next = Next goal, in one life: { $what } { $done }/{ $least }
+feat-changes = changes of the body
+feat-time = seconds alive
+feat-small = small food
+feat-cells = cells
+feat-divisions = divisions
+feat-bites = bites out of amoebae
 chain-wins = { $name } lived longest, { $best } s to { $others } s
 chain-draw = A draw, all lived { $points } s
 chain-draw-best = A draw of the best, { $points } s each
 chain-lived = Your line lived { $time } s
-chain-starved = It starved. An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the end.
-chain-eaten = A larger amoeba ate it, bite by bite. Entamoeba histolytica kills living cells like this: trogocytosis (Ralston and others, 2014, Nature 508).
-change-heading = You have doubled: choose
+chain-starved = It starved. Larger cells need more: go where small food is dense, and take cells under a green arrow.
+chain-starved-fact = An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the end.
+chain-eaten = A larger amoeba ate it. At a warning sign crawl away at once, through a gap; grown cells eat rivals.
+chain-eaten-alone = A larger amoeba ate it. Flee at a warning sign, and divide in time: a sister is a second life.
+chain-eaten-fact = Entamoeba histolytica kills living cells bite by bite: trogocytosis (Ralston and others, 2014, Nature 508).
+change-heading = You have grown: choose
 change-speed = Quick body
 change-speed-about = You crawl 15 % faster.
 change-sticky-front = Sticky front
@@ -194,7 +208,12 @@ change-wide-mouth-about = Prey may be a third larger, and you bite amoebae your 
 
 guide-heading = Field guide { $found }/{ $all }
 guide-read = Enter or a click: read
-guide-hidden = Not found yet. Ask "What is this?" in a simulation, eat, divide, look in other ways.
+guide-ask = Not found yet. Ask "What is this?" about it in the simulation "{ $scene }".
+guide-eat = Not found yet. Digest one in a round or on a slide.
+guide-take = Not found yet. Take food in with your front, and digest it.
+guide-divide = Not found yet. Divide your cell in the food chain.
+guide-look = Not found yet. Look in this way: { $key } changes the optics.
+guide-own = Not found yet. Ask "What is this?" about a body in a scenario of your own.
 guide-unkept = What you found cannot be kept: { $error }
 
 ## Two players

@@ -14,7 +14,7 @@ pub struct Builtin {
 static BUILTINS: [Builtin; 16] = [
     Builtin {
         name: "game",
-        summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones (thesis, 3.3.2)",
+        summary: "90 seconds to eat: agar first, then paramecia, larger and larger ones",
         text: include_str!("../../scenarios/game.toml"),
     },
     Builtin {

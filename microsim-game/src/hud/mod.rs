@@ -5,6 +5,7 @@ pub mod food_chain;
 pub mod marks;
 pub mod own;
 pub mod places;
+pub mod pulse;
 pub mod tint;
 
 use crate::draw::palette::{ALERT, HALO, INK, READY, fade};
@@ -64,6 +65,19 @@ pub fn draw_advice(pen: &mut Pen, text: &str, covered: f32) {
     }
 }
 
+/// What was just done, as advice, with a tick before it.
+pub fn draw_done(pen: &mut Pen, text: &str, covered: f32) {
+    draw_advice(pen, text, covered);
+    let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
+    let lines = pen.wrap_evenly(TextSize::Body, text, 0.9 * screen.x);
+    let height = screen.y - covered - (0.9 + 1.12 * lines.len() as f32) * line;
+    let (at, size) = (Vec2::new(0.5 * screen.x, height - 0.2 * line), 0.9 * line);
+    let corners = [[-0.55, -0.05], [-0.1, 0.4], [0.6, -0.5]].map(|[x, y]| at + size * Vec2::new(x, y));
+    for (width, colour) in [(0.4 * size, INK), (0.22 * size, READY)] {
+        corners.windows(2).for_each(|pair| pen.canvas().segment(pair[0], pair[1], width, colour));
+    }
+}
+
 /// Time as minutes and seconds, a started second counting as a whole one.
 fn clock(time: f32) -> String {
     let seconds = time.max(0.0).ceil() as u32;
@@ -73,6 +87,17 @@ fn clock(time: f32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_done_has_a_tick_above_its_text_and_inside_the_picture() {
+        let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+        let lowest = |pen: &mut Pen| pen.canvas().corners().map(|(at, ..)| at.y).fold(f32::MAX, f32::min);
+        draw_advice(&mut pen, "Reach the place", 0.0);
+        let above = lowest(&mut pen);
+        assert_eq!(pen.canvas().count(READY), 0);
+        draw_done(&mut pen, "Reach the place", 0.0);
+        assert!(pen.canvas().count(READY) > 0 && lowest(&mut pen) < above && lowest(&mut pen) > 0.0);
+    }
 
     #[test]
     fn t68_the_clock_reads_as_minutes_and_seconds() {

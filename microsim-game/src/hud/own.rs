@@ -7,11 +7,15 @@ use crate::ui::pen::{Align, Pen};
 use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
 
-/// Draws the rim, and the number of one of several players, each in a colour of its own; the rim of `is_first` is wider.
-pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number: Option<usize>, is_first: bool) {
+/// Width of the rims of others.
+pub const OTHERS: f32 = 0.6;
+
+/// Draws the rim, and the number of one of several players, each in a colour of its own. The rim
+/// is `width` times as wide as that of the own cell usually is.
+pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number: Option<usize>, width: f32) {
     let rim = number.map_or(READY, |number| PLAYERS[(number - 1) % PLAYERS.len()].1);
     let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
-    let width = if is_first { 0.1 } else { 0.06 } * pen.line(TextSize::Body);
+    let width = 0.1 * width * pen.line(TextSize::Body);
     for (width, colour) in [(2.2 * width, fade(INK, 0.35)), (width, fade(rim, 0.7))] {
         for k in 0..outline.len() {
             pen.canvas().segment(outline[k], outline[(k + 1) % outline.len()], width, colour);
@@ -38,7 +42,7 @@ mod tests {
         let style = Style { camera: &camera, time: None, is_classic: false, key: None };
         let mut pen = Pen::bare();
         let cell = world.view().organism(cell).unwrap();
-        draw_own(&mut pen, &style, cell, None, true);
+        draw_own(&mut pen, &style, cell, None, 1.0);
         let (low, high) = cell.bounds();
         let (a, b) = (camera.to_screen(low), camera.to_screen(high));
         let is_near = |at: Vec2| at.cmpgt(a.min(b) - 6.0).all() && at.cmplt(a.max(b) + 6.0).all();
@@ -54,7 +58,7 @@ mod tests {
         let style = Style { camera: &camera, time: None, is_classic: false, key: None };
         let colours = |number| {
             let mut pen = Pen::bare();
-            draw_own(&mut pen, &style, world.view().organism(cell).unwrap(), Some(number), true);
+            draw_own(&mut pen, &style, world.view().organism(cell).unwrap(), Some(number), 1.0);
             pen.canvas().corners().map(|(_, _, colour)| colour).collect::<BTreeSet<_>>()
         };
         let all: BTreeSet<_> = (1..=4).map(colours).collect();

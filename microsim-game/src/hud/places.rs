@@ -7,13 +7,14 @@ use crate::rules::prey_class;
 use crate::rules::round::Round;
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
-use microsim_core::View;
 use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
+use microsim_core::{OrganismView, View};
 
 /// Draws a frame around each place, a thick one that is filled until a player was there; of two places to be held at the same time,
-/// which a line joins, while nobody is there. An arrow at the edge of the picture points to such a place outside.
-pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round) {
+/// which a line joins, while nobody is there. An arrow at the edge of the picture points to such a place outside. Where a cell touches
+/// a place, its middle is marked: that has to be inside.
+pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'_>) {
     let unit = pen.line(TextSize::Body);
     let players: Vec<Vec2> = round.players().filter_map(|cell| round.world().centroid(cell)).collect();
     for (goal, done) in round.attempt().into_iter().flat_map(Attempt::goals) {
@@ -23,7 +24,27 @@ pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round) {
             pen.canvas().segment(a, b, 0.12 * unit, fade(READY, 0.5));
         }
         for place in places(goal) {
-            draw_place(pen, style, place, is_open && !is_held(place, &players));
+            let is_open = is_open && !is_held(place, &players);
+            draw_place(pen, style, place, is_open);
+            if is_open {
+                let cells = round.players().filter_map(|cell| view.organism(cell));
+                cells.for_each(|cell| draw_middle(pen, style, place, cell));
+            }
+        }
+    }
+}
+
+/// Marks the middle of a cell that touches a place by a cross in a ring.
+fn draw_middle(pen: &mut Pen, style: &Style<'_>, [low, high]: [Vec2; 2], cell: OrganismView<'_>) {
+    let (from, to) = cell.bounds();
+    if from.cmpgt(high).any() || to.cmplt(low).any() {
+        return;
+    }
+    let (at, unit) = (style.camera.to_screen(cell.centroid()), pen.line(TextSize::Body));
+    for (width, colour) in [(0.2 * unit, INK), (0.1 * unit, READY)] {
+        pen.canvas().arc(at, 0.32 * unit, width, 1.0, colour);
+        for side in [Vec2::X, Vec2::Y].map(|axis| 0.5 * unit * axis) {
+            pen.canvas().segment(at - side, at + side, width, colour);
         }
     }
 }
@@ -69,6 +90,7 @@ fn draw_frame(pen: &mut Pen, low: Vec2, high: Vec2, width: f32, alpha: f32) {
 mod tests {
     use super::*;
     use crate::camera::Camera;
+    use microsim_core::{AmoeboidCellSpec, Placement, World, WorldConfig};
 
     #[test]
     fn t87_a_place_is_marked_until_the_player_was_there() {
@@ -82,5 +104,21 @@ mod tests {
         assert!(drawn(20.0, true) > 0, "a frame");
         assert_eq!(drawn(20.0, false), 0);
         assert!(drawn(400.0, true) > drawn(20.0, true), "and an arrow to what is outside");
+    }
+
+    #[test]
+    fn the_middle_of_a_cell_is_marked_where_it_touches_a_place() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(80.0, 45.0)).unwrap();
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let marked = |gap: f32| {
+            let (cell, mut pen) = (world.view().organism(cell).unwrap(), Pen::bare());
+            let low = Vec2::new(cell.bounds().1.x + gap, 40.0);
+            draw_middle(&mut pen, &style, [low, low + 10.0], cell);
+            pen.canvas().corners().map(|(at, ..)| at.distance(camera.to_screen(cell.centroid()))).fold(0.0, f32::max)
+        };
+        assert_eq!(marked(1.0), 0.0, "nothing is marked beside it");
+        assert!(marked(-1.0) > 0.0 && marked(-1.0) < Pen::bare().line(TextSize::Body), "a small mark at the middle");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::prey_class;
 use microsim_core::glam::Vec2;
-use microsim_core::{MealPhase, OrganismId, OrganismView, View};
+use microsim_core::{Event, MealPhase, OrganismId, OrganismView, View, World};
 
 /// Whether a rigid cell can be taken in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +86,14 @@ impl Hints {
     }
 }
 
+/// Where the last step brought what some cells took in.
+pub fn taken_in<'a>(world: &'a World, cells: &'a [OrganismId]) -> impl Iterator<Item = Vec2> + 'a {
+    world.events().iter().filter_map(|event| match event {
+        Event::Ingested { engulfer, prey, .. } if cells.contains(engulfer) => world.centroid(*prey),
+        _ => None,
+    })
+}
+
 /// Whether the player can take a soft cell in; `None` if it takes in nothing at all.
 #[must_use]
 pub fn readiness(player: OrganismView<'_>, prey: OrganismView<'_>) -> Option<Readiness> {
@@ -113,4 +121,23 @@ fn state(engulfer: OrganismView<'_>, phase: MealPhase) -> MealState {
 fn half_extent(organism: OrganismView<'_>) -> f32 {
     let (low, high) = organism.bounds();
     0.5 * (high - low).max_element()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stage::Stage;
+
+    #[test]
+    fn what_is_taken_in_is_seen_once_inside_the_cell_that_took_it_in() {
+        let mut stage = Stage::builtin("absorb-agar").unwrap();
+        let (eater, mut taken) = (stage.player().unwrap(), Vec::new());
+        while stage.world().time() < 15.0 {
+            stage.step();
+            let (low, high) = stage.world().view().organism(eater).unwrap().bounds();
+            taken.extend(taken_in(stage.world(), &[eater]).map(|at| at.cmpgt(low).all() && at.cmplt(high).all()));
+            assert_eq!(taken_in(stage.world(), &[]).count(), 0);
+        }
+        assert_eq!(taken, [true]);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::attempt::Attempt;
 use super::food_chain::change::Change;
-use super::food_chain::{self, Deed, Fate, FoodChain};
+use super::food_chain::{self, Deed, FoodChain, Life};
 use super::referee::{Gain, KindScore, Referee};
 use super::threat;
 use crate::sound::Cue;
@@ -59,17 +59,6 @@ pub struct RoundResult {
     pub record: Option<Vec<u8>>,
     /// Whether a replay differed from what was recorded.
     pub is_mismatch: bool,
-}
-
-/// How a food chain ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Life {
-    /// How long the first player's line lived, s.
-    pub time: f32,
-    /// How it ended; unknown in a replay.
-    pub fate: Option<Fate>,
-    /// Seed of the round: what its player shares.
-    pub seed: u64,
 }
 
 /// Where the intents of a round come from.
@@ -259,16 +248,10 @@ impl Round {
             undigested: self.undigested(),
             kinds: self.referee().kinds().to_vec(),
             attempt: self.attempt.clone(),
-            life: self.life(),
+            life: self.chain.as_ref().and_then(|chain| chain.life(self.world(), self.referee().kinds())),
             record: self.record(),
             is_mismatch: self.mismatch().is_some(),
         }
-    }
-
-    fn life(&self) -> Option<Life> {
-        let (world, chain) = (self.world(), self.chain.as_ref()?);
-        let time = chain.lives(world.time() as f32).next()?;
-        Some(Life { time, fate: chain.fate(0), seed: world.config().seed })
     }
 
     fn undigested(&self) -> u32 {

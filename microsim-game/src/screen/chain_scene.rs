@@ -14,7 +14,12 @@ use microsim_core::{OrganismId, View};
 /// Time until the cell starves that fills the bar, s.
 const FULL_RESERVE: f32 = 60.0;
 
-/// What is new is explained when it is there first. `divide` is what is written on the key that divides.
+/// When the first rival and the first giant come, as the scene says, and how long before the player is warned of them, s.
+const RIVALS: f64 = 65.0;
+const GIANTS: f64 = 100.0;
+const WARNING: f64 = 5.0;
+
+/// What is new is explained when it is there first, and what is dangerous before. `divide` is what is written on the key that divides.
 pub(super) fn advice(time: f64, divide: &str, has_buttons: bool) -> Option<String> {
     let divide = if has_buttons { words::text(Key::HintChainButton) } else { divide };
     let what = held_to_crawl(has_buttons);
@@ -22,9 +27,9 @@ pub(super) fn advice(time: f64, divide: &str, has_buttons: bool) -> Option<Strin
     let parts = [
         (0.0, words::text_with(Key::HintChainCrawl, &[("what", what.into())])),
         (6.0, of(Key::HintChainClock)),
-        (22.0, of(Key::HintChainRivals)),
-        (30.0, of(Key::HintChainGiant)),
-        (38.0, words::text_with(Key::HintChainDivide, &[("key", divide.into())])),
+        (25.0, words::text_with(Key::HintChainDivide, &[("key", divide.into())])),
+        (RIVALS - WARNING, of(Key::HintChainRivals)),
+        (GIANTS - WARNING, of(Key::HintChainGiant)),
     ];
     parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
 }
@@ -71,6 +76,7 @@ pub(super) fn draw(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rules::food_chain;
     use microsim_core::Intent;
     use microsim_core::scenario::Scenario;
 
@@ -96,10 +102,24 @@ mod tests {
     "#;
 
     #[test]
+    fn of_rivals_and_giants_one_is_warned_before_the_first_of_them_comes() {
+        let first = |of: &str| {
+            let spawns = food_chain::TEXT.split("[[spawn]]").filter(|spawn| spawn.contains(of));
+            let from = spawns.filter_map(|spawn| spawn.split("from = ").nth(1)?.lines().next()?.parse::<f64>().ok());
+            from.fold(f64::MAX, f64::min)
+        };
+        for (of, hint) in [("of = \"rival\"", Key::HintChainRivals), ("of = \"giant\"", Key::HintChainGiant)] {
+            let told = |before: f64| advice(first(of) - before, "X", false);
+            assert_eq!(told(3.0).as_deref(), Some(words::text(hint)), "{of}");
+            assert_eq!(told(8.0), None);
+        }
+    }
+
+    #[test]
     fn the_status_tells_from_which_size_on_the_body_changes() {
         let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
         let (told, _) = status(&round, round.player()).unwrap();
-        assert!(told.starts_with("Lived 0 s  size 1.0/2"), "{told}");
+        assert!(told.starts_with("Lived 0 s  size 1.0/1.5"), "{told}");
     }
 
     #[test]

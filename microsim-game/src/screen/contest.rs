@@ -276,11 +276,12 @@ impl Screen for Contest {
         let pen = &mut context.pen;
         for (k, id) in round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, &style, cell, Some(k + 1), Some(k) == self.game.own());
+                let width = if Some(k) == self.game.own() { 1.0 } else { own::OTHERS };
+                own::draw_own(pen, &style, cell, Some(k + 1), width);
             }
         }
         places::draw_food(pen, &style, view);
-        places::draw_places(pen, &style, round);
+        places::draw_places(pen, &style, round, view);
         let mut taken = marks::MarkLayout::default();
         if round.chain().is_none() {
             self.gains.draw(pen, &style, &mut taken);

@@ -16,6 +16,7 @@ use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
 use crate::stage::Stage;
 use crate::store::best_times::BestTimes;
+use crate::store::chain_records::ChainRecords;
 use crate::store::files::PlayerFolder;
 use crate::store::found::FoundEntries;
 use crate::store::scores::Scores;
@@ -115,6 +116,8 @@ pub struct AppContext {
     pub scores: Scores,
     /// Best times for the slides.
     pub best_times: BestTimes,
+    /// What the player has reached in the food chain.
+    pub chain_records: ChainRecords,
     /// What the player has found of the field guide.
     pub found: FoundEntries,
     /// How time passes in this frame.
@@ -158,6 +161,7 @@ impl AppContext {
         let (settings, problem) = store.load::<Settings>(kept::FILE);
         let (scores, other_problem) = Scores::load(&store);
         let (best_times, third_problem) = BestTimes::load(&store);
+        let (chain_records, fourth_problem) = ChainRecords::load(&store);
         let found = FoundEntries::load(&store);
         let last_game = store.read(LAST_GAME);
         let mut context = Self {
@@ -170,6 +174,7 @@ impl AppContext {
             settings,
             scores,
             best_times,
+            chain_records,
             found,
             pace: Pace { elapsed: 0.0, is_exact: false },
             time: 0.0,
@@ -191,8 +196,8 @@ impl AppContext {
         };
         let other_language = context.settings.refuse_language();
         let refused = |code: String| words::text_with(Key::SettingsUnknownLanguage, &[("language", (&code).into())]);
-        let problems: Vec<String> =
-            [problem, other_problem, third_problem, other_language.map(refused)].into_iter().flatten().collect();
+        let problems = [problem, other_problem, third_problem, fourth_problem, other_language.map(refused)];
+        let problems: Vec<String> = problems.into_iter().flatten().collect();
         if !problems.is_empty() {
             context.tell(problems.join("\n"));
         }

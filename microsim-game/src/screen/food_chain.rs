@@ -5,6 +5,7 @@ use super::page::MenuPage;
 use super::{MainScreen, Next, Screen, new_seed};
 use crate::input::Input;
 use crate::rules::food_chain::NAME;
+use crate::rules::food_chain::feats::Feats;
 use crate::ui::menu::{Menu, MenuItem};
 use crate::words::{self, Key};
 use macroquad::miniquad;
@@ -18,6 +19,10 @@ pub(super) const LONGEST: f32 = 3600.0;
 pub(super) struct FoodChainMenu {
     page: MenuPage,
     best: Option<u32>,
+    /// The next goal of one who has played.
+    goal: Option<String>,
+    /// The best time in today's water, s.
+    today: Option<u32>,
 }
 
 impl FoodChainMenu {
@@ -25,7 +30,11 @@ impl FoodChainMenu {
         let items = [Key::ChainToday, Key::ChainOther, Key::Back].map(MenuItem::new);
         let best = context.scores.of(NAME, LONGEST).next();
         let best = best.map(|score| score.points);
-        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best }
+        let records = &context.chain_records;
+        // One who has not played yet is told the rules.
+        let goal = records.best.next_goal(Key::ChainNext).filter(|_| records.best != Feats::default());
+        let today = records.of_day(todays_seed(context));
+        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best, goal, today }
     }
 }
 
@@ -41,7 +50,8 @@ impl Screen for FoodChainMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        self.page.draw_note(&mut context.pen, &note(self.best));
+        let goal = self.goal.as_deref().filter(|_| self.page.menu.focus() == 0);
+        self.page.draw_note(&mut context.pen, &note(self.best, goal, self.today));
     }
 
     fn name(&self) -> String {
@@ -49,16 +59,21 @@ impl Screen for FoodChainMenu {
     }
 }
 
-/// What is said of the game, and of the best time, s.
-fn note(best: Option<u32>) -> String {
+/// What is said of the game and the best time, s; at today's water, to one who has played, how it went there and the next goal.
+fn note(best: Option<u32>, goal: Option<&str>, today: Option<u32>) -> String {
     let about = words::text(Key::ChainAbout);
-    best.map_or(about.to_owned(), |time| {
-        words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())])
-    })
+    match (best, goal, today) {
+        (_, Some(goal), Some(time)) => {
+            words::text_with(Key::ChainTodayBest, &[("time", time.into()), ("goal", goal.into())])
+        }
+        (_, Some(goal), None) => words::text_with(Key::ChainTodayNew, &[("goal", goal.into())]),
+        (None, None, _) => about.to_owned(),
+        (Some(time), None, _) => words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())]),
+    }
 }
 
 /// The number of the day, but for pictures that must come out the same.
-fn todays_seed(context: &AppContext) -> u64 {
+pub(super) fn todays_seed(context: &AppContext) -> u64 {
     if context.pace.is_exact { 1 } else { (miniquad::date::now() / DAY) as u64 }
 }
 
@@ -71,9 +86,17 @@ mod tests {
     fn the_rules_are_seen_whole_in_a_small_window() {
         for language in &words::LANGUAGES {
             words::choose(language, || None);
-            for best in [None, Some(LONGEST as u32)] {
-                assert!(is_seen_whole(&note(best)), "{}", note(best));
+            let (longest, goal) = (Some(LONGEST as u32), Feats::default().next_goal(Key::ChainNext));
+            let notes = [
+                note(None, None, None),
+                note(longest, None, None),
+                note(longest, goal.as_deref(), None),
+                note(longest, goal.as_deref(), longest),
+            ];
+            for note in &notes {
+                assert!(is_seen_whole(note), "{note}");
             }
+            assert!((1..4).all(|k| notes[k] != notes[k - 1]), "{notes:?}");
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use super::context::AppContext;
 use super::page::MenuPage;
-use super::{Next, Overlay, Screen};
-use crate::guide::ENTRIES;
-use crate::input::{Input, Move};
+use super::{Next, Overlay, Screen, pick};
+use crate::guide::{ENTRIES, Entry};
+use crate::input::{Action, Input, Move};
+use crate::scenery::Sight;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{self, Key};
 
@@ -35,6 +36,24 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
     ENTRIES.iter().map(|entry| item(entry.name)).collect()
 }
 
+/// How an entry that is not found yet is found; `key` is what is written on the key for the next way of looking.
+fn how(entry: &Entry, key: &str) -> String {
+    let ask = || {
+        let scene = pick::builtin_title(entry.scene.0);
+        words::text_with(Key::GuideAsk, &[("scene", scene.text().into())])
+    };
+    match entry.name {
+        "agar" | "coccus" | "bacillus" | "rigid-cell" => words::text(Key::GuideEat).to_owned(),
+        "phagocytosis" | "phagosome" => words::text(Key::GuideTake).to_owned(),
+        "division" => words::text(Key::GuideDivide).to_owned(),
+        "custom" => words::text(Key::GuideOwn).to_owned(),
+        name if Sight::all().any(|sight| sight.name() == name) => {
+            words::text_with(Key::GuideLook, &[("key", key.into())])
+        }
+        _ => ask(),
+    }
+}
+
 impl Screen for Guide {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         self.page.menu.items = items(context);
@@ -51,9 +70,11 @@ impl Screen for Guide {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        let is_found = context.found.has(ENTRIES[self.page.menu.focus()].name);
-        let note = if is_found { Key::GuideRead } else { Key::GuideHidden };
-        self.page.draw_note(&mut context.pen, words::text(note));
+        let entry = &ENTRIES[self.page.menu.focus()];
+        let is_found = context.found.has(entry.name);
+        let how = || how(entry, &context.settings.keys.label(Action::Optics));
+        let note = if is_found { words::text(Key::GuideRead).to_owned() } else { how() };
+        self.page.draw_note(&mut context.pen, &note);
     }
 
     fn menu(&self) -> Option<&Menu> {
@@ -62,5 +83,25 @@ impl Screen for Guide {
 
     fn name(&self) -> String {
         "guide".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::page::is_seen_whole;
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_entry_says_how_it_is_found_and_where_to_ask() {
+        for language in &words::LANGUAGES {
+            words::choose(language, || None);
+            let told: Vec<String> = ENTRIES.iter().map(|entry| how(entry, "PageDown")).collect();
+            assert!(told.iter().all(|note| is_seen_whole(note)), "{told:?}");
+            let different: BTreeSet<&String> = told.iter().collect();
+            assert!(different.len() >= 10, "{different:?}");
+            let wall = ENTRIES.iter().position(|entry| entry.name == "wall").unwrap();
+            assert!(told[wall].contains(words::text(Key::SceneSqueeze)), "{}", told[wall]);
+        }
     }
 }

@@ -53,9 +53,16 @@ impl Pick {
 
 /// What a scenario is called for people; a file by its name.
 fn title(source: &SceneSource) -> Label {
-    let name = source.to_string();
-    let known = TITLES.iter().find(|(known, _)| matches!(source, SceneSource::Builtin(_)) && *known == name);
-    known.map_or_else(|| name.into(), |(_, title)| (*title).into())
+    match source {
+        SceneSource::Builtin(name) => builtin_title(name),
+        SceneSource::File(_) => source.to_string().into(),
+    }
+}
+
+/// What a built-in scenario is called for people.
+pub(super) fn builtin_title(name: &str) -> Label {
+    let known = TITLES.iter().find(|(known, _)| *known == name);
+    known.map_or_else(|| name.to_owned().into(), |(_, title)| (*title).into())
 }
 
 impl Screen for Pick {

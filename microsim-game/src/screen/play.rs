@@ -2,19 +2,21 @@
 
 use super::chain_scene;
 use super::context::AppContext;
+use super::done::DoneNote;
 use super::follow::Follow;
 use super::steer::{Hands, draw_prey, held_to_crawl, targets_of};
 use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
 use crate::game_choice::GameChoice;
 use crate::guide;
+use crate::hud::pulse::Pulses;
 use crate::hud::{self, Status, marks, own, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::attempt::Attempt;
 use crate::rules::bot::Bot;
 use crate::rules::food_chain::NAME;
-use crate::rules::hint::Hints;
+use crate::rules::hint::{Hints, taken_in};
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides;
@@ -42,6 +44,8 @@ pub(super) struct Play {
     task: Option<String>,
     viewer: Viewer,
     gains: marks::Gains,
+    pulses: Pulses,
+    done: DoneNote,
     /// Most of each chemical so far.
     fullest: Vec<f32>,
     /// What was heard in this frame.
@@ -126,6 +130,8 @@ impl Play {
             played,
             viewer,
             gains: marks::Gains::default(),
+            pulses: Pulses::default(),
+            done: DoneNote::default(),
             fullest: Vec::new(),
             heard: Vec::new(),
             follow,
@@ -137,10 +143,15 @@ impl Play {
     }
 
     fn run(&mut self, input: &Input, context: &mut AppContext) {
+        let was_crawling = self.hands.is_crawling;
         self.hands.note(input, context.settings.click_to_crawl);
+        self.pulses.pass(context.pace.elapsed);
+        if self.hands.is_crawling && !was_crawling && !self.round.is_replay() {
+            self.pulses.call(self.viewer.camera.to_room(input.cursor));
+        }
         let goals = self.hands.goals(input, &self.viewer.camera, &self.round, self.two);
         let digests = context.settings.digests(input);
-        let Self { round, viewer, gains, heard, hands, bot, .. } = self;
+        let Self { round, viewer, gains, pulses, heard, hands, bot, .. } = self;
         let mut digested = Vec::new();
         heard.clear();
         viewer.run(context.pace, context.settings.pace(), round, |round| {
@@ -151,10 +162,15 @@ impl Play {
             round.step_all(&intents);
             heard.extend(round.heard());
             gains.add(round.gains());
+            let cells: Vec<OrganismId> = round.players().collect();
+            taken_in(round.world(), &cells).for_each(|at| pulses.take(at));
             digested.extend(round.gains().map(|gain| gain.kind));
             round.world()
         });
         self.gains.pass(context.pace.elapsed);
+        if let Some(attempt) = self.round.attempt() {
+            self.done.pass(attempt, context.pace.elapsed);
+        }
         for (k, (_, chemical)) in self.round.world().view().chemicals().enumerate() {
             self.fullest.resize(self.fullest.len().max(k + 1), 0.0);
             self.fullest[k] = self.fullest[k].max(tint::fullest(chemical));
@@ -185,11 +201,13 @@ impl Play {
         let (seen, is_alone) = (self.seen(), self.round.players().count() == 1);
         for (k, id) in self.round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
-                own::draw_own(pen, style, cell, (!is_alone).then_some(k + 1), k == self.own);
+                let width = if k == self.own { self.pulses.rim() } else { own::OTHERS };
+                own::draw_own(pen, style, cell, (!is_alone).then_some(k + 1), width);
             }
         }
+        self.pulses.draw(pen, style);
         places::draw_food(pen, style, view);
-        places::draw_places(pen, style, &self.round);
+        places::draw_places(pen, style, &self.round, view);
         chain_scene::draw(pen, style, &self.round, view, (seen, !self.round.is_replay()));
         marks::draw_held(pen, style, &mut taken, &hints.held);
         if self.round.chain().is_none() {
@@ -274,7 +292,8 @@ impl Screen for Play {
         self.run(input, context);
         context.play(&self.heard);
         self.look(input, context);
-        if self.round.is_over() {
+        // What is done is seen before the end covers it.
+        if self.round.is_over() && !self.done.is_shown() {
             let result = Box::new(self.round.result());
             return Next::Open(match (self.two, result.attempt.is_some(), result.life) {
                 (_, true, _) => Overlay::SlideEnd(result, self.played),
@@ -317,7 +336,9 @@ impl Screen for Play {
         let pen = &mut context.pen;
         self.draw_marks(pen, &style, view, &hints);
         self.draw_status(pen, context.settings.reduced_motion);
-        if let Some(advice) = advice {
+        if let Some((attempt, task)) = self.round.attempt().zip(self.task.as_ref()).filter(|_| self.done.is_shown()) {
+            hud::draw_done(pen, &self.done.text(attempt, task), covered);
+        } else if let Some(advice) = advice {
             hud::draw_advice(pen, &advice, covered);
         }
     }

@@ -6,6 +6,7 @@ use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Input, Move};
 use crate::platform;
 use crate::rules::bot::{Bot, Policy};
+use crate::rules::food_chain::feats::Feats;
 use crate::stage::Stage;
 use crate::ui::font::{TITLE, TextSize};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout, title_lines};
@@ -26,6 +27,8 @@ pub(super) struct Title {
     backdrop: Option<Backdrop>,
     menu: Menu,
     targets: Vec<(Key, Target)>,
+    /// The next goal of the food chain, for one who has played it.
+    goal: Option<String>,
 }
 
 #[derive(Debug)]
@@ -61,7 +64,9 @@ impl Title {
     pub(super) fn new(context: &AppContext) -> Self {
         let targets = offered(context.last_game.is_some(), platform::CAN_QUIT);
         let items = targets.iter().map(|&(label, _)| MenuItem::new(label)).collect();
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets }
+        let best = context.chain_records.best;
+        let goal = best.next_goal(Key::TitleGoal).filter(|_| best != Feats::default());
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets, goal }
     }
 }
 
@@ -135,7 +140,13 @@ impl Screen for Title {
         pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
         if layout.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
-            pen.write(motto, TextSize::Body, Align::Left, fade(HALO, 0.85), words::text(Key::TitleMotto));
+            match &self.goal {
+                Some(goal) => pen.label(motto, TextSize::Body, Align::Left, HALO, goal),
+                None => {
+                    let colour = fade(HALO, 0.85);
+                    pen.write(motto, TextSize::Body, Align::Left, colour, words::text(Key::TitleMotto));
+                }
+            }
         }
         self.menu.draw(pen, &layout);
         let version = words::text_with(Key::TitleVersion, &[("version", env!("CARGO_PKG_VERSION").into())]);

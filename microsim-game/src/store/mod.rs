@@ -1,6 +1,7 @@
 //! What is kept between runs: settings, high scores and best times, in the place that the platform has for them.
 
 pub mod best_times;
+pub mod chain_records;
 pub mod files;
 pub mod found;
 pub mod scores;

@@ -160,11 +160,8 @@ pub fn screen_buttons() -> ScreenButtons {
 /// Nothing: there are no buttons on the screen to show or hide.
 pub fn show_buttons(_: bool, _: &[&str]) {}
 
-/// The command that plays a scene again with the same seed.
-#[must_use]
-pub fn offer_again(scene: &str, seed: u64) -> Option<String> {
-    Some(format!("microsim-game {scene} --play --seed {seed}"))
-}
+/// Nothing: only a page has a link to a scene with its seed.
+pub fn offer_again(_: &str, _: u64) {}
 
 /// Nothing: menus are drawn only.
 pub fn show_menu(_: &str, _: &str) {}

@@ -110,11 +110,9 @@ pub fn show_buttons(are_wanted: bool, named: &[&str]) {
     host::tell(order, &named.join(" "), &[]);
 }
 
-/// No command plays a scene again with the same seed: from now on the page's menu has a link to it.
-#[must_use]
-pub fn offer_again(scene: &str, seed: u64) -> Option<String> {
+/// From now on the page's menu has a link to a scene with its seed.
+pub fn offer_again(scene: &str, seed: u64) {
     host::tell("offer", &format!("scenario={scene}&play&seed={seed}"), &[]);
-    None
 }
 
 /// Puts the menu that is drawn into the page too, where screen readers find it: the screen's name, empty for a scene, and the

@@ -16,7 +16,7 @@ const GAP: f32 = 1.8;
 /// Time for which they have to touch first, s.
 const HOLD: f32 = 0.4;
 /// Cytoplasm that a bite takes, particles/s; for each thick coat half as much.
-const RATE: f32 = 20.0;
+const RATE: f32 = 8.0;
 /// Time for which a bite counts after it, s: cells lose touch for a moment when one is pushed away.
 const RECENT: f64 = 1.0;
 

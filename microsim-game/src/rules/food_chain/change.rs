@@ -1,4 +1,4 @@
-//! Changes of the player's body: at each doubling of its size one of three. They are kept as the cell's user data, so that
+//! Changes of the player's body: as it grows one of three. They are kept as the cell's user data, so that
 //! daughters and replays have them.
 
 use crate::words::Key;

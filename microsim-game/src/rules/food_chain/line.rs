@@ -1,6 +1,7 @@
 //! The line of one player: the cell that is played, and its sisters.
 
 use super::change::Change;
+use super::feats::Feats;
 use microsim_core::Rng;
 
 /// Streams of random numbers from here on are for offers, one for each line.
@@ -14,6 +15,8 @@ pub(super) struct Line {
     rng: Rng,
     /// How its last cell that is gone came to its end.
     pub fate: Option<Fate>,
+    /// What it has done, as far as the referee does not count it.
+    pub feats: Feats,
     /// When none of its cells was left, s.
     pub end: Option<f32>,
 }
@@ -30,7 +33,13 @@ pub enum Fate {
 impl Line {
     /// The line of a player in a round of this seed.
     pub(super) fn new(seed: u64, player: usize) -> Self {
-        Self { offer: None, rng: Rng::new(seed, STREAM + player as u64), fate: None, end: None }
+        Self {
+            offer: None,
+            rng: Rng::new(seed, STREAM + player as u64),
+            fate: None,
+            feats: Feats::default(),
+            end: None,
+        }
     }
 
     /// Offers three changes by chance, if none are offered.

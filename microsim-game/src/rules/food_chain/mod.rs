@@ -1,19 +1,23 @@
 //! The food chain: an endless round of one to four players, each with a line of cells. Hunger uses up cytoplasm, larger amoebae
-//! [bite](bites), and at each doubling the body [changes](change). What comes when is data, `games/food-chain.toml`.
+//! [bite](bites), and as the cell grows the body [changes](change). What comes when is data, `games/food-chain.toml`.
 //!
 //! What the rules do to the world they do between two steps, so a replay has it; when it is played again they only look on.
 
 pub mod bites;
 pub mod change;
+pub mod feats;
 mod line;
 
+use super::prey_class;
+use super::referee::KindScore;
 use super::seating::seat;
 use super::threat::Other;
 use bites::{Bites, can_bite, cytoplasm};
 use change::{Change, changes, line_of, mark};
+use feats::Feats;
 pub use line::Fate;
 use line::Line;
-use microsim_core::{Kind, OrganismId, OrganismView, View, World};
+use microsim_core::{Event, Kind, OrganismId, OrganismView, View, World};
 
 /// Name of its scenario.
 pub const NAME: &str = "food-chain";
@@ -30,9 +34,11 @@ const LEAST: u32 = 12;
 /// What a cell of the first size uses up, particles/s; a larger one as much as the power 3/4 of its size says (Kleiber 1932).
 const HUNGER: f32 = 4.2;
 /// Time in which hunger grows by that of the beginning, s.
-const RAMP: f32 = 90.0;
+const RAMP: f32 = 150.0;
 /// Share of it for a sister, which rests.
 const RESTING: f32 = 0.3;
+/// Size from which a cell can be changed first; from twice as large on once more.
+const FIRST_CHANGE: f32 = 1.5;
 /// What each [`Change::Thrift`] leaves of it.
 const THRIFT: f32 = 0.9;
 
@@ -52,6 +58,19 @@ pub struct FoodChain {
     bites: Bites,
     /// Of each player.
     lines: Vec<Line>,
+}
+
+/// How a food chain ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Life {
+    /// How long the first player's line lived, s.
+    pub time: f32,
+    /// How it ended; unknown in a replay.
+    pub fate: Option<Fate>,
+    /// What it has done; in a replay not all of it is known.
+    pub feats: Feats,
+    /// Seed of the round: what its player shares.
+    pub seed: u64,
 }
 
 /// What a player does besides crawling.
@@ -95,8 +114,11 @@ impl FoodChain {
     fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId) {
         self.take(world, of, Fate::Eaten);
         // Refused while it divides, or has no room.
-        if world.view().organism(by).and_then(line_of).is_some() {
+        if let Some(line) = world.view().organism(by).and_then(line_of) {
             let _ = world.grow(by, 0, 1);
+            if let Some(line) = self.lines.get_mut(line) {
+                line.feats.bites += 1;
+            }
         }
     }
 
@@ -147,7 +169,7 @@ impl FoodChain {
     /// Size from which a cell can be changed once more.
     #[must_use]
     pub fn next_size(cell: OrganismView<'_>) -> f32 {
-        2.0_f32.powi(1 + changes(cell) as i32)
+        FIRST_CHANGE * 2.0_f32.powi(changes(cell) as i32)
     }
 
     /// Time until a cell has nothing left to live on, at its present hunger, s.
@@ -162,9 +184,13 @@ impl FoodChain {
     pub fn after_step(&mut self, world: &World, player: usize, cell: OrganismId) -> OrganismId {
         let view = world.view();
         let heir = view.organism(cell).or_else(|| view.organisms().find(|other| line_of(*other) == Some(player)));
-        let has_doubled = heir.is_some_and(|heir| self.size(heir) >= Self::next_size(heir));
+        let has_grown = heir.is_some_and(|heir| self.size(heir) >= Self::next_size(heir));
+        let is_own = |cell| view.organism(cell).and_then(line_of) == Some(player);
+        let divided = |event: &&Event| matches!(event, Event::Divided { parent, .. } if is_own(*parent));
+        let divisions = world.events().iter().filter(divided).count() as u32;
         let line = &mut self.lines[player];
-        if has_doubled {
+        line.feats.divisions += divisions;
+        if has_grown {
             line.offer_changes();
         }
         if heir.is_none() {
@@ -183,6 +209,7 @@ impl FoodChain {
     pub(super) fn change(&mut self, change: Change, world: &mut World, player: usize, cell: OrganismId) {
         if change.make(world, cell).is_ok() {
             self.lines[player].offer = None;
+            self.lines[player].feats.changes += 1;
         }
     }
 
@@ -190,6 +217,18 @@ impl FoodChain {
     #[must_use]
     pub fn is_bitten(&self, cell: OrganismId) -> bool {
         self.bites.is_bitten(cell)
+    }
+
+    /// How it stands for the first player, who has digested this.
+    #[must_use]
+    pub fn life(&self, world: &World, kinds: &[(Kind, KindScore)]) -> Option<Life> {
+        let (time, line) = (self.lives(world.time() as f32).next()?, self.lines.first()?);
+        let count = |is_rigid: bool| {
+            let of_sort = kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
+            of_sort.map(|(_, entry)| entry.count).sum()
+        };
+        let feats = Feats { time: time as u32, small: count(false), cells: count(true), ..line.feats };
+        Some(Life { time, fate: line.fate, feats, seed: world.config().seed })
     }
 
     /// How the last cell of a line that is gone came to its end; `None` before, and in a replay.

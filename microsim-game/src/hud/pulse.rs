@@ -1,0 +1,116 @@
+//! What answers a hand at once: a ring closes where the player begins to crawl to, a ring opens around what was taken in, and the
+//! rim of the own cell swells once. Nothing of it blinks: each fades, and a rim does not swell again before it is done.
+
+use super::marks::Style;
+use crate::draw::palette::{HALO, INK, READY, fade};
+use crate::ui::font::TextSize;
+use crate::ui::pen::Pen;
+use macroquad::color::Color;
+use microsim_core::glam::Vec2;
+
+/// Time for which a ring is seen, s.
+const TIME: f32 = 0.4;
+/// How much wider the rim of a cell gets that has taken something in.
+const SWELLING: f32 = 1.2;
+
+/// A ring.
+#[derive(Clone, Copy, Debug)]
+struct Pulse {
+    at: Vec2,
+    /// Radius when it appears and when it is gone, lines of text.
+    radii: [f32; 2],
+    colour: Color,
+    age: f32,
+}
+
+/// The rings that are seen now.
+#[derive(Clone, Debug, Default)]
+pub struct Pulses {
+    rings: Vec<Pulse>,
+    /// Time since the rim began to swell, s; `None` when it is done.
+    swelling: Option<f32>,
+}
+
+impl Pulses {
+    /// The player begins to crawl towards a point.
+    pub fn call(&mut self, at: Vec2) {
+        self.rings.push(Pulse { at, radii: [0.9, 0.2], colour: HALO, age: 0.0 });
+    }
+
+    /// Something was taken in at a point.
+    pub fn take(&mut self, at: Vec2) {
+        self.rings.push(Pulse { at, radii: [0.4, 1.5], colour: READY, age: 0.0 });
+        self.swelling.get_or_insert(0.0);
+    }
+
+    /// Lets time pass, s.
+    pub fn pass(&mut self, elapsed: f32) {
+        self.rings.iter_mut().for_each(|ring| ring.age += elapsed);
+        self.rings.retain(|ring| ring.age < TIME);
+        self.swelling = self.swelling.map(|age| age + elapsed).filter(|age| *age < TIME);
+    }
+
+    /// How many times as wide as usual the rim of the own cell is.
+    #[must_use]
+    pub fn rim(&self) -> f32 {
+        1.0 + self.swelling.map_or(0.0, |age| SWELLING * (1.0 - age / TIME))
+    }
+
+    /// Draws the rings; they keep their size where nothing may move.
+    pub fn draw(&self, pen: &mut Pen, style: &Style<'_>) {
+        let unit = pen.line(TextSize::Body);
+        for ring in &self.rings {
+            let share = ring.age / TIME;
+            let [from, to] = ring.radii;
+            let radius = unit * style.time.map_or(0.5 * (from + to), |_| from + (to - from) * share);
+            let at = style.camera.to_screen(ring.at);
+            pen.canvas().arc(at, radius, 0.22 * unit, 1.0, fade(INK, 0.7 * (1.0 - share)));
+            pen.canvas().arc(at, radius, 0.11 * unit, 1.0, fade(ring.colour, 1.0 - share));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+
+    fn size(pulses: &Pulses, time: Option<f32>) -> f32 {
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let (style, mut pen) = (Style { camera: &camera, time, is_classic: false, key: None }, Pen::bare());
+        pulses.draw(&mut pen, &style);
+        let at = camera.to_screen(Vec2::new(80.0, 45.0));
+        pen.canvas().corners().map(|(corner, ..)| corner.distance(at)).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_ring_closes_where_one_crawls_to_and_opens_around_what_was_taken_in() {
+        for (is_taken, grows) in [(false, false), (true, true)] {
+            let sizes = |time| {
+                let mut pulses = Pulses::default();
+                let answer = if is_taken { Pulses::take } else { Pulses::call };
+                answer(&mut pulses, Vec2::new(80.0, 45.0));
+                [0.05, 0.2, TIME].map(|elapsed| {
+                    pulses.pass(elapsed);
+                    size(&pulses, time)
+                })
+            };
+            let [early, late, gone] = sizes(Some(0.0));
+            assert!(early > 0.0 && (late > early) == grows && gone == 0.0, "{early} {late} {gone}");
+            let [early, late, gone] = sizes(None);
+            assert!(early > 0.0 && early == late && gone == 0.0, "nothing moves");
+        }
+    }
+
+    #[test]
+    fn a_rim_swells_less_than_three_times_a_second_however_much_is_taken_in() {
+        let (mut pulses, mut before, mut swellings) = (Pulses::default(), 1.0, 0);
+        for _ in 0..600 {
+            pulses.take(Vec2::ZERO);
+            swellings += u32::from(pulses.rim() > before + 0.5);
+            before = pulses.rim();
+            pulses.pass(1.0 / 60.0);
+        }
+        assert!((2..30).contains(&swellings), "{swellings} in ten seconds");
+    }
+}
