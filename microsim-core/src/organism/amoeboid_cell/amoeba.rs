@@ -10,10 +10,10 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 1.1, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [1, 1],
-        radius: [0.235, 0.235],
+        radius: [0.27, 0.36],
         behind: 0.0,
         spread: 0.0,
-        bent: 0.06,
+        bent: 0.09,
         matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 0.85 },
         texture: Texture { amount: 0.26, size: 0.9 },
         nucleoli: [1, 4],
