@@ -24,17 +24,17 @@ pub(crate) fn bacteria(rng: &mut Rng) -> Result<World, microsim_core::Error> {
             for place in 0..pick(rng, files + 3) {
                 // Files bend together, as the pack does.
                 let from_middle = Vec2::new(place as f32 - 0.5 * files as f32, file as f32 - 0.5 * files as f32);
-                let apart = Vec2::new(1.9 + 2.8 * long as f32, 1.85) * radius;
+                let apart = Vec2::new(0.95 + 4.05 * long as f32, 1.8) * radius;
                 let angle = turn + bend * from_middle.x;
                 let at = middle + Vec2::from_angle(angle).rotate(apart * from_middle);
-                grow(&mut world, &rod, (at, angle + 0.04 * rng.normal()), (long, 2.8 * radius));
+                grow(&mut world, &rod, (at, angle + 0.04 * rng.normal()), (long, 4.05 * radius));
             }
         }
     }
     for _ in 0..8 + pick(rng, 30) {
         let at = Vec2::new(rng.unit(), rng.unit()) * side;
         if has_rods {
-            grow(&mut world, &rod, (at, TAU * rng.unit()), (long, 2.8 * radius));
+            grow(&mut world, &rod, (at, TAU * rng.unit()), (long, 4.05 * radius));
             continue;
         }
         let mut at = at;
@@ -50,7 +50,7 @@ pub(crate) fn bacteria(rng: &mut Rng) -> Result<World, microsim_core::Error> {
 fn grow(world: &mut World, rod: &OrganismSpec, (at, angle): (Vec2, f32), (parts, apart): (usize, f32)) {
     for part in 0..parts {
         let at = at + Vec2::from_angle(angle) * (apart * part as f32);
-        let _ = world.spawn(rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.6));
+        let _ = world.spawn(rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.5));
     }
 }
 

@@ -100,7 +100,7 @@ pub(crate) fn ours(optics: Option<Optics>, rng: &mut Rng) -> Outcome<Crop> {
     Ok(Crop { bytes: (0..SIDE).flat_map(|y| bytes[row(y)].to_vec()).collect(), origin })
 }
 
-/// Where a camera is pointed: at something, every other time at one of the largest things.
+/// Where a camera is pointed: at something, mostly at one of the largest things.
 fn aim(world: &World, width: f32, rng: &mut Rng) -> Vec2 {
     let view = world.view();
     let mut things: Vec<(f32, Vec2)> = view
@@ -111,29 +111,33 @@ fn aim(world: &World, width: f32, rng: &mut Rng) -> Vec2 {
         })
         .collect();
     let largest = things.iter().map(|thing| thing.0).fold(0.0, f32::max);
-    if rng.unit() < 0.5 {
+    if rng.unit() < 0.7 {
         things.retain(|thing| thing.0 > 0.5 * largest);
     }
     let aside = Vec2::new(rng.unit(), rng.unit()) - 0.5;
-    things.get(pick(rng, things.len())).map_or(0.5 * world.config().size, |thing| thing.1 + aside * width * 0.7)
+    things.get(pick(rng, things.len())).map_or(0.5 * world.config().size, |thing| thing.1 + aside * width * 0.45)
 }
 
 /// A camera without colours sees one dye: nucleic acid, cytoplasm, or, laid over each other as colours, both.
 fn one_dye(bytes: &mut [u8], rng: &mut Rng) {
-    let channel = match pick(rng, 10) {
-        0 => return,
-        1..=3 => 1,
-        _ => 2,
-    };
-    bytes.chunks_exact_mut(3).for_each(|pixel| pixel.fill(pixel[channel]));
+    let kind = pick(rng, 10);
+    for pixel in bytes.chunks_exact_mut(3) {
+        match kind {
+            0 => pixel[0] = 0,
+            1..=3 => pixel.fill(pixel[1]),
+            _ => pixel.fill(pixel[2]),
+        }
+    }
 }
 
-/// Gives the darkest and the brightest pixels black and white.
+/// Gives the darkest and the brightest pixels of each colour black and white.
 fn stretch(bytes: &mut [u8], white: f32) {
-    let mut sorted = bytes.to_vec();
-    sorted.sort_unstable();
-    let [low, high] = [BLACK, white].map(|share| f32::from(sorted[(share * (sorted.len() - 1) as f32) as usize]));
-    for byte in bytes {
-        *byte = (255.0 * (f32::from(*byte) - low) / (high - low).max(1.0)).clamp(0.0, 255.0) as u8;
+    for channel in 0..3 {
+        let mut sorted: Vec<u8> = bytes.iter().skip(channel).step_by(3).copied().collect();
+        sorted.sort_unstable();
+        let [low, high] = [BLACK, white].map(|share| f32::from(sorted[(share * (sorted.len() - 1) as f32) as usize]));
+        for byte in bytes.iter_mut().skip(channel).step_by(3) {
+            *byte = (255.0 * (f32::from(*byte) - low) / (high - low).max(1.0)).clamp(0.0, 255.0) as u8;
+        }
     }
 }

@@ -19,7 +19,7 @@ const NUCLEUS: [f32; 3] = [0.05, 0.16, 0.95];
 const CYTOPLASM: [f32; 3] = [0.03, 0.45, 0.03];
 
 /// Condensed chromatin shines more than its amount: of it, this share goes by the square.
-const CONDENSED: f32 = 0.7;
+const CONDENSED: f32 = 0.5;
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.0;
 

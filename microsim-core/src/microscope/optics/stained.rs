@@ -15,9 +15,9 @@ use glam::Vec2;
 /// A field without a specimen: 204, 208, 204 of 255.
 const BACKGROUND: [f32; 3] = [0.799, 0.815, 0.800];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.092, 0.252, 0.200];
+const HAEMOGLOBIN: [f32; 3] = [0.100, 0.275, 0.215];
 const CYTOPLASM: [f32; 3] = [0.115, 0.290, 0.045];
-const NUCLEUS: [f32; 3] = [0.36, 0.66, -0.16];
+const NUCLEUS: [f32; 3] = [0.32, 0.68, -0.16];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
 const PLASMA: [f32; 3] = [0.021, 0.012, 0.017];
 /// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.
@@ -76,9 +76,9 @@ const MODE: Mode = Mode {
     is_bright: true,
     channels: 3,
     surround: None,
-    blur: 0.12,
+    blur: 0.135,
     ground: BACKGROUND,
-    grain: 0.85,
+    grain: 0.78,
     shader: Shader::Light(shade, &GLSL),
 };
 
