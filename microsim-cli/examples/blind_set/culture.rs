@@ -1,6 +1,7 @@
 //! Preparations that no built-in scenario is: bacteria on agarose, and cells that grew side by side.
 
 use crate::pick;
+use microsim_core::bodies::CollisionGroups;
 use microsim_core::glam::Vec2;
 use microsim_core::{AmoeboidCellSpec, BacillusSpec, CoccusSpec, Inputs, OrganismSpec, Placement};
 use microsim_core::{Rng, World, WorldConfig};
@@ -24,17 +25,17 @@ pub(crate) fn bacteria(rng: &mut Rng) -> Result<World, microsim_core::Error> {
             for place in 0..pick(rng, files + 3) {
                 // Files bend together, as the pack does.
                 let from_middle = Vec2::new(place as f32 - 0.5 * files as f32, file as f32 - 0.5 * files as f32);
-                let apart = Vec2::new(0.95 + 4.05 * long as f32, 1.8) * radius;
+                let apart = Vec2::new(1.6 + 3.2 * long as f32, 1.8) * radius;
                 let angle = turn + bend * from_middle.x;
                 let at = middle + Vec2::from_angle(angle).rotate(apart * from_middle);
-                grow(&mut world, &rod, (at, angle + 0.04 * rng.normal()), (long, 4.05 * radius));
+                grow(&mut world, &rod, (at, angle + 0.04 * rng.normal()), (long, 3.2 * radius));
             }
         }
     }
     for _ in 0..8 + pick(rng, 30) {
         let at = Vec2::new(rng.unit(), rng.unit()) * side;
         if has_rods {
-            grow(&mut world, &rod, (at, TAU * rng.unit()), (long, 4.05 * radius));
+            grow(&mut world, &rod, (at, TAU * rng.unit()), (long, 3.2 * radius));
             continue;
         }
         let mut at = at;
@@ -48,9 +49,14 @@ pub(crate) fn bacteria(rng: &mut Rng) -> Result<World, microsim_core::Error> {
 
 /// A rod of so many parts in a row; it does not grow where there is no room.
 fn grow(world: &mut World, rod: &OrganismSpec, (at, angle): (Vec2, f32), (parts, apart): (usize, f32)) {
-    for part in 0..parts {
+    let whole = Placement::at(at.x, at.y).turned(angle).overlapping(0.5);
+    if world.spawn(rod, whole).is_err() {
+        return;
+    }
+    for part in 1..parts {
         let at = at + Vec2::from_angle(angle) * (apart * part as f32);
-        let _ = world.spawn(rod, Placement::at(at.x, at.y).turned(angle).overlapping(0.5));
+        // It is one with the first.
+        let _ = world.spawn(rod, Placement::at(at.x, at.y).turned(angle).in_groups(CollisionGroups::NONE));
     }
 }
 

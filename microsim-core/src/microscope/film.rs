@@ -138,7 +138,7 @@ impl Camera {
             let apart = (from_middle - shadow.at).length_squared() / (shadow.radius * shadow.radius);
             let inside = larger(1.0 - apart, 0.0);
             // A grain bends light into its middle.
-            let ring = if k < GRAINS_OF_DUST { 5.0 * (1.0 - inside) } else { 1.0 };
+            let ring = if k < GRAINS_OF_DUST { RING * (1.0 - inside) } else { 1.0 };
             light * (1.0 - shadow.depth * ring * inside * inside)
         })
     }
@@ -173,7 +173,9 @@ const DARK_BLOTCHES: f32 = 0.2;
 /// Shadows of dust, and all shadows: the others are broad and shallow, where the condenser lights the field less.
 const GRAINS_OF_DUST: usize = 6;
 pub(super) const SHADOWS: usize = 8;
-/// Deepest of those, in the light's growth from the middle on.
+/// Strength of the rings that grains of dust are, in their depth.
+const RING: f32 = 8.0;
+/// Deepest of the broad ones, in the light's growth from the middle on.
 const UNEVEN: f32 = 4.0;
 /// Standard deviation of the unsharp mask, pixels of the picture.
 pub(super) const MASK: f32 = 1.3;
@@ -186,6 +188,7 @@ pub(super) const GLSL: Glsl = Glsl {
         ("BLOTCHES", &BLOTCHES),
         ("BLOTCH_SIZE", &[BLOTCH_SIZE]),
         ("GRAINS_OF_DUST", &[GRAINS_OF_DUST as f32]),
+        ("RING", &[RING]),
     ],
 };
 

@@ -10,8 +10,9 @@ vec3 shade() {
     vec2 place = area.xy + uv * area.zw;
     vec2 along = vec2(PLASMA_WAY.x * place.x - PLASMA_WAY.y * place.y, PLASMA_WAY.y * place.x + PLASMA_WAY.x * place.y);
     float plasma = two_octaves(along / PLASMA_SIZE, PLASMA_SHIFT);
-    float bent = clamp(curvature(STEP), -20.0, 20.0) * (1.0 + UNLEVEL.x * value(place / UNLEVEL.y, PLASMA_SHIFT));
-    vec3 density = vec3(dyes(matter_here()).xy, dyes(blue).z) + PLASMA * plasma;
+    float uneven = value(place / UNLEVEL.y, PLASMA_SHIFT);
+    float bent = clamp(curvature(STEP), -20.0, 20.0) * (1.0 + UNLEVEL.x * uneven);
+    vec3 density = vec3(dyes(matter_here()).xy, dyes(blue).z * (1.0 + UNLEVEL.z * uneven)) + PLASMA * plasma;
     density /= 1.0 + TONE * abs(density);
     return BACKGROUND * exp(-density) * (1.0 - DEFOCUS * bent);
 }

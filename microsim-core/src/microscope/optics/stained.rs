@@ -26,9 +26,9 @@ const TONE: f32 = 0.22;
 const DEFOCUS: [f32; 3] = [-0.0034, -0.0028, -0.0014];
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.24;
-/// By how much of that the defocus differs from place to place, because a smear is not level, and over which distance,
-/// micrometres.
-const UNLEVEL: [f32; 2] = [1.3, 40.0];
+/// By how much of that the defocus differs from place to place, because a smear is not level, over which distance,
+/// micrometres, and by how much the dyes take up more blue light here than there.
+const UNLEVEL: [f32; 3] = [1.3, 40.0, 0.3];
 /// Where the blue image lies from the others, and half the distance of two images of which it is the mean: the objective
 /// is not corrected for blue.
 const BLUE_SHIFT: Vec2 = Vec2::new(-0.04, -0.19);
@@ -42,7 +42,7 @@ const PLASMA_SEED: u32 = 0x57a1;
 const DRY: [f32; 2] = [0.7, 0.3];
 /// Red cells that dry over each other sink into each other: of haemoglobin beyond that of one, which comes first, the share
 /// that follows does not count.
-const PRESSED: [f32; 2] = [1.2, 0.65];
+const PRESSED: [f32; 2] = [1.1, 0.75];
 
 const GLSL: Glsl = Glsl {
     source: glsl_text!("stained.glsl"),
@@ -88,9 +88,9 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let (here, blue) = (dyes(sampler.matter(x, y)), dyes(blue * 0.5));
     let place = sampler.raster.grid.place(x, y);
     let plasma = octaves(PLASMA_WAY.rotate(place) / PLASMA_SIZE, 2, PLASMA_SEED);
-    let focus = 1.0 + UNLEVEL[0] * octaves(place / UNLEVEL[1], 1, PLASMA_SEED);
-    let curvature = focus * sampler.curvature(x, y, STEP).clamp(-20.0, 20.0);
-    let density = [here[0], here[1], blue[2]];
+    let uneven = octaves(place / UNLEVEL[1], 1, PLASMA_SEED);
+    let curvature = (1.0 + UNLEVEL[0] * uneven) * sampler.curvature(x, y, STEP).clamp(-20.0, 20.0);
+    let density = [here[0], here[1], blue[2] * (1.0 + UNLEVEL[2] * uneven)];
     std::array::from_fn(|k| {
         let density = density[k] + PLASMA[k] * plasma;
         let density = density / (1.0 + TONE * density.abs());

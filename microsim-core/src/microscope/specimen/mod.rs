@@ -35,7 +35,7 @@ use thread::Thread;
 const ROD_BEND: f32 = 0.05;
 const ROD_WIDTH: f32 = 0.08;
 const ROD_ENDS: f32 = 0.35;
-const ROD_SEPTA: f32 = 0.35;
+const ROD_SEPTA: f32 = 0.15;
 /// Radius of the drops that a rod is made of, in its own: they are soft.
 const ROD_REACH: f32 = 1.25;
 /// Distance of the drops that a rod is made of, in radii.
