@@ -10,7 +10,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 1.1, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [1, 1],
-        radius: [0.27, 0.36],
+        radius: [0.31, 0.31],
         behind: 0.0,
         spread: 0.0,
         bent: 0.05,
