@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::{BufReader, BufWriter};
 use std::path::{Path, PathBuf};
 
-/// Random crops of the PNG files of a folder that are large enough; each file is taken about equally often.
-pub(crate) fn references(folder: &Path, count: usize, rng: &mut Rng) -> Outcome<Vec<Crop>> {
+/// The PNG files of a folder, in their order.
+pub(crate) fn files_in(folder: &Path) -> Outcome<Vec<PathBuf>> {
     let mut files: Vec<PathBuf> = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
@@ -16,6 +16,11 @@ pub(crate) fn references(folder: &Path, count: usize, rng: &mut Rng) -> Outcome<
         }
     }
     files.sort();
+    Ok(files)
+}
+
+/// Random crops of files that are large enough; each file is taken about equally often.
+pub(crate) fn references(mut files: Vec<PathBuf>, count: usize, rng: &mut Rng) -> Outcome<Vec<Crop>> {
     let mut crops = Vec::new();
     while crops.len() < count && !files.is_empty() {
         let file = pick(rng, files.len());
@@ -30,7 +35,7 @@ pub(crate) fn references(folder: &Path, count: usize, rng: &mut Rng) -> Outcome<
         crops.push(Crop { bytes, origin: format!("real {} {left} {top}", files[file].display()) });
     }
     if crops.len() < count {
-        return Err(format!("no PNG file of at least {SIDE} x {SIDE} pixels in {}", folder.display()).into());
+        return Err(format!("no PNG file of at least {SIDE} x {SIDE} pixels").into());
     }
     Ok(crops)
 }

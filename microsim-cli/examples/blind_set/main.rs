@@ -2,14 +2,17 @@
 //!
 //! `cargo run --release -p microsim-cli --example blind_set COUNT SEED FOLDER [REFERENCES]` writes `COUNT` crops of ours and
 //! as many of the PNG files in `REFERENCES`, in one order that the seed decides, as `01.png` and so on, and all of them as
-//! `sheet.png`. `key.txt` says which is which. Scenario, its seed, time, view and optics are drawn at random. All crops have
-//! the same size and went through the same lossy coding.
+//! `sheet.png`. `key.txt` says which is which. Scenario, its seed, time and view are drawn at random, and so are the optics: among
+//! ours they are as frequent as among the references, whose files are named after theirs. All crops have the same size, are of
+//! larger fields, grey ones of which have the same share of black and white pixels, and went through the same lossy coding.
 
 mod coding;
 mod crop;
+mod culture;
 mod draw;
 
 use microsim_core::Rng;
+use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -35,13 +38,17 @@ fn main() -> Outcome<()> {
     let (count, folder) = (count.parse()?, PathBuf::from(folder));
     let mut rng = Rng::new(seed.parse()?, 0);
     let mut crops = Vec::new();
-    for _ in 0..count {
-        crops.push(draw::ours(&mut rng)?);
-    }
-    match references {
-        [] => {}
-        [references] => crops.extend(crop::references(Path::new(references), count, &mut rng)?),
+    let files = match references {
+        [] => Vec::new(),
+        [references] => crop::files_in(Path::new(references))?,
         _ => return Err(usage.into()),
+    };
+    for _ in 0..count {
+        let like = files.get(pick(&mut rng, files.len())).and_then(|file| file.file_name()).and_then(OsStr::to_str);
+        crops.push(draw::ours(like.and_then(draw::optics_of), &mut rng)?);
+    }
+    if !references.is_empty() {
+        crops.extend(crop::references(files, count, &mut rng)?);
     }
     for last in (1..crops.len()).rev() {
         crops.swap(last, pick(&mut rng, last + 1));

@@ -50,7 +50,8 @@ float shaded(vec2 from_middle) {
     for (int k = 0; k < SHADOWS; k++) {
         vec2 apart = place - shadows[k].xy;
         float inside = max(1.0 - dot(apart, apart) / (shadows[k].z * shadows[k].z), 0.0);
-        light *= 1.0 - shadows[k].w * inside * inside;
+        float ring = float(k) < GRAINS_OF_DUST ? RING * (1.0 - inside) : 1.0;
+        light *= 1.0 - shadows[k].w * ring * inside * inside;
     }
     return light;
 }

@@ -124,7 +124,7 @@ impl Camera {
             let at = Vec2::new(rng.range([-0.9, 0.9]), rng.range([-0.7, 0.7]));
             let (size, share) = (rng.unit(), rng.unit());
             if k < GRAINS_OF_DUST {
-                Shadow { at, radius: mix(0.015, 0.05, size), depth: film.dust * share }
+                Shadow { at, radius: mix(0.012, 0.035, size), depth: film.dust * share }
             } else {
                 Shadow { at, radius: mix(0.4, 1.0, size), depth: UNEVEN * film.gradient * share }
             }
@@ -134,10 +134,12 @@ impl Camera {
 
     /// Light at a place, 1 in the middle of an even field.
     fn light(&self, from_middle: Vec2) -> f32 {
-        self.shadows.iter().fold(1.0 + self.gradient.dot(from_middle), |light, shadow| {
+        self.shadows.iter().enumerate().fold(1.0 + self.gradient.dot(from_middle), |light, (k, shadow)| {
             let apart = (from_middle - shadow.at).length_squared() / (shadow.radius * shadow.radius);
             let inside = larger(1.0 - apart, 0.0);
-            light * (1.0 - shadow.depth * inside * inside)
+            // A grain bends light into its middle.
+            let ring = if k < GRAINS_OF_DUST { RING * (1.0 - inside) } else { 1.0 };
+            light * (1.0 - shadow.depth * ring * inside * inside)
         })
     }
 }
@@ -169,16 +171,25 @@ const BLOTCHES: [f32; 3] = [0.8, 0.3, 2.4];
 const BLOTCH_SIZE: f32 = 6.0;
 const DARK_BLOTCHES: f32 = 0.2;
 /// Shadows of dust, and all shadows: the others are broad and shallow, where the condenser lights the field less.
-const GRAINS_OF_DUST: usize = 3;
-pub(super) const SHADOWS: usize = 5;
-/// Deepest of those, in the light's growth from the middle on.
+const GRAINS_OF_DUST: usize = 6;
+pub(super) const SHADOWS: usize = 8;
+/// Strength of the rings that grains of dust are, in their depth.
+const RING: f32 = 8.0;
+/// Deepest of the broad ones, in the light's growth from the middle on.
 const UNEVEN: f32 = 4.0;
 /// Standard deviation of the unsharp mask, pixels of the picture.
 pub(super) const MASK: f32 = 1.3;
 
 pub(super) const GLSL: Glsl = Glsl {
     source: glsl_text!("film.glsl"),
-    constants: &[("FINE", &[FINE]), ("COARSE", &[COARSE]), ("BLOTCHES", &BLOTCHES), ("BLOTCH_SIZE", &[BLOTCH_SIZE])],
+    constants: &[
+        ("FINE", &[FINE]),
+        ("COARSE", &[COARSE]),
+        ("BLOTCHES", &BLOTCHES),
+        ("BLOTCH_SIZE", &[BLOTCH_SIZE]),
+        ("GRAINS_OF_DUST", &[GRAINS_OF_DUST as f32]),
+        ("RING", &[RING]),
+    ],
 };
 
 impl FilmFrame {
@@ -279,13 +290,15 @@ mod tests {
     fn dust_and_uneven_light_stay_from_frame_to_frame() {
         let light = |time, seed| {
             let camera = Film::DIGITAL.frame(time, seed).camera;
-            [Vec2::ZERO, Vec2::new(0.4, -0.3), camera.shadows[0].at].map(|place| camera.light(place))
+            [Vec2::ZERO, Vec2::new(0.4, -0.3), camera.shadows[0].at + 0.7 * camera.shadows[0].radius]
+                .map(|place| camera.light(place))
         };
         assert_eq!(light(0.0, 7), light(3.0, 7));
         assert_ne!(light(0.0, 7), light(0.0, 8));
         let clean = Film { dust: 0.0, gradient: 0.0, ..Film::DIGITAL }.frame(0.0, 7).camera;
         assert_eq!(clean.light(clean.shadows[0].at), 1.0);
         let dusty = Film { gradient: 0.0, ..Film::DIGITAL }.frame(0.0, 7).camera;
-        assert!(dusty.light(dusty.shadows[0].at) < 1.0);
+        let Shadow { at, radius, .. } = dusty.shadows[0];
+        assert!(dusty.light(at + Vec2::X * (0.7 * radius)) < 1.0);
     }
 }

@@ -69,7 +69,7 @@ impl Spec for BacillusSpec {
     /// A dense rod.
     fn look(&self) -> Look {
         Look {
-            image: ImageLook::Rod(&Matter { phase: 0.9, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.9 }),
+            image: ImageLook::Rod(&Matter { phase: 0.40, haemoglobin: 0.0, cytoplasm: 0.5, nucleus: 0.9 }),
             drawn: DrawnLook { form: Form::Beads, tint: TINT, layer: 3 },
             painted: PAINTED,
         }

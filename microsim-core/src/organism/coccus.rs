@@ -67,9 +67,9 @@ impl Spec for CoccusSpec {
     fn look(&self) -> Look {
         Look {
             image: ImageLook::Round(&RoundLook {
-                matter: Matter { phase: 1.05, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 1.2 },
+                matter: Matter { phase: 0.6, haemoglobin: 0.0, cytoplasm: 0.5, nucleus: 1.2 },
                 variation: 0.25,
-                outline: OutlineLook { size: 0.06, ovals: 0.4, spread: 0.9, ..const { OutlineLook::uneven(0.06) } },
+                outline: OutlineLook { size: 0.06, ovals: 0.4, spread: 0.9, ..const { OutlineLook::uneven(0.03) } },
                 ..RoundLook::PLAIN
             }),
             drawn: DrawnLook { form: Form::Beads, tint: TINT, layer: 3 },

@@ -10,7 +10,7 @@ use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
 /// Defocus over the wave number for each unit of `f`, square micrometres per radian.
-const DEFOCUS: f32 = 0.10;
+const DEFOCUS: f32 = 0.07;
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.24;
 /// Largest `f`, the noise at which it is half of that, and the distance over which it changes, micrometres.
@@ -43,9 +43,9 @@ const MODE: Mode = Mode {
     is_bright: true,
     channels: 1,
     surround: Some(Surround::Wave),
-    blur: 0.14,
+    blur: 0.18,
     ground: [BACKGROUND; 3],
-    grain: 1.0,
+    grain: 0.75,
     shader: Shader::Light(shade, &GLSL),
 };
 

@@ -8,18 +8,18 @@ use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
 /// Camera's offset and autofluorescence.
-const DARK: [f32; 3] = [0.044, 0.086, 0.092];
+const DARK: [f32; 3] = [0.030, 0.050, 0.050];
 /// Share by which autofluorescence of the medium differs over a distance, micrometres.
 const UNEVEN: f32 = 0.35;
 const UNEVEN_SIZE: f32 = 28.0;
 const UNEVEN_SEED: u32 = 0xa07;
 /// Share of the light that is out of focus, and spreads around what shines.
-const HAZE: f32 = 0.55;
+const HAZE: f32 = 0.40;
 const NUCLEUS: [f32; 3] = [0.05, 0.16, 0.95];
-const CYTOPLASM: [f32; 3] = [0.03, 0.45, 0.06];
+const CYTOPLASM: [f32; 3] = [0.03, 0.45, 0.03];
 
 /// Condensed chromatin shines more than its amount: of it, this share goes by the square.
-const CONDENSED: f32 = 0.7;
+const CONDENSED: f32 = 0.5;
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.0;
 
@@ -49,8 +49,8 @@ const MODE: Mode = Mode {
     channels: 3,
     surround: Some(Surround::Emission),
     blur: 0.17,
-    ground: [0.03, 0.07, 0.06],
-    grain: 3.0,
+    ground: [0.03, 0.05, 0.05],
+    grain: 1.4,
     shader: Shader::Light(shade, &GLSL),
 };
 

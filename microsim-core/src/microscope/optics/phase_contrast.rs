@@ -55,9 +55,9 @@ const POSITIVE: Mode = Mode {
     is_bright: false,
     channels: 1,
     surround: Some(Surround::Wave),
-    blur: 0.09,
+    blur: 0.11,
     ground: [BACKGROUND; 3],
-    grain: 1.0,
+    grain: 0.75,
     shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
 

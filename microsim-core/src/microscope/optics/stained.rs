@@ -7,24 +7,28 @@
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
 use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::maths::larger;
 use crate::microscope::matter::Matter;
 use crate::microscope::noise::{octaves, shift_of};
 use glam::Vec2;
 
-/// A field without a specimen: 199, 203, 197 of 255.
-const BACKGROUND: [f32; 3] = [0.780, 0.796, 0.773];
+/// A field without a specimen: 204, 208, 204 of 255.
+const BACKGROUND: [f32; 3] = [0.799, 0.815, 0.800];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
-const HAEMOGLOBIN: [f32; 3] = [0.092, 0.252, 0.200];
+const HAEMOGLOBIN: [f32; 3] = [0.100, 0.275, 0.215];
 const CYTOPLASM: [f32; 3] = [0.115, 0.290, 0.045];
-const NUCLEUS: [f32; 3] = [0.36, 0.66, -0.16];
+const NUCLEUS: [f32; 3] = [0.32, 0.68, -0.16];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
 const PLASMA: [f32; 3] = [0.021, 0.012, 0.017];
 /// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.
 const TONE: f32 = 0.22;
 /// Defocus over the wave number in red, green and blue, square micrometres per radian.
-const DEFOCUS: [f32; 3] = [0.0030, 0.0050, 0.0];
+const DEFOCUS: [f32; 3] = [-0.0034, -0.0028, -0.0014];
 /// Distance over which the curvature of the delay is taken, micrometres.
-const STEP: f32 = 0.15;
+const STEP: f32 = 0.24;
+/// By how much of that the defocus differs from place to place, because a smear is not level, over which distance,
+/// micrometres, and by how much the dyes take up more blue light here than there.
+const UNLEVEL: [f32; 3] = [1.3, 40.0, 0.3];
 /// Where the blue image lies from the others, and half the distance of two images of which it is the mean: the objective
 /// is not corrected for blue.
 const BLUE_SHIFT: Vec2 = Vec2::new(-0.04, -0.19);
@@ -36,6 +40,9 @@ const PLASMA_WAY: Vec2 = Vec2::new(0.8, 0.6);
 const PLASMA_SEED: u32 = 0x57a1;
 /// A dry smear is not thicker where a living cell is: cytoplasm counts as `c / (DRY[0] + DRY[1] c)`.
 const DRY: [f32; 2] = [0.7, 0.3];
+/// Red cells that dry over each other sink into each other: of haemoglobin beyond that of one, which comes first, the share
+/// that follows does not count.
+const PRESSED: [f32; 2] = [1.1, 0.75];
 
 const GLSL: Glsl = Glsl {
     source: glsl_text!("stained.glsl"),
@@ -47,7 +54,9 @@ const GLSL: Glsl = Glsl {
         ("PLASMA", &PLASMA),
         ("DEFOCUS", &DEFOCUS),
         ("STEP", &[STEP]),
+        ("UNLEVEL", &UNLEVEL),
         ("DRY", &DRY),
+        ("PRESSED", &PRESSED),
         ("TONE", &[TONE]),
         ("BLUE_SHIFT", &[BLUE_SHIFT.x, BLUE_SHIFT.y]),
         ("BLUE_BLUR", &[BLUE_BLUR.x, BLUE_BLUR.y]),
@@ -67,9 +76,9 @@ const MODE: Mode = Mode {
     is_bright: true,
     channels: 3,
     surround: None,
-    blur: 0.12,
+    blur: 0.135,
     ground: BACKGROUND,
-    grain: 0.85,
+    grain: 0.78,
     shader: Shader::Light(shade, &GLSL),
 };
 
@@ -77,10 +86,11 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let mut blue = sampler.matter_beside(x, y, BLUE_SHIFT + BLUE_BLUR);
     blue += sampler.matter_beside(x, y, BLUE_SHIFT - BLUE_BLUR);
     let (here, blue) = (dyes(sampler.matter(x, y)), dyes(blue * 0.5));
-    let along = PLASMA_WAY.rotate(sampler.raster.grid.place(x, y)) / PLASMA_SIZE;
-    let plasma = octaves(along, 2, PLASMA_SEED);
-    let curvature = sampler.curvature(x, y, STEP).clamp(-20.0, 20.0);
-    let density = [here[0], here[1], blue[2]];
+    let place = sampler.raster.grid.place(x, y);
+    let plasma = octaves(PLASMA_WAY.rotate(place) / PLASMA_SIZE, 2, PLASMA_SEED);
+    let uneven = octaves(place / UNLEVEL[1], 1, PLASMA_SEED);
+    let curvature = (1.0 + UNLEVEL[0] * uneven) * sampler.curvature(x, y, STEP).clamp(-20.0, 20.0);
+    let density = [here[0], here[1], blue[2] * (1.0 + UNLEVEL[2] * uneven)];
     std::array::from_fn(|k| {
         let density = density[k] + PLASMA[k] * plasma;
         let density = density / (1.0 + TONE * density.abs());
@@ -90,8 +100,8 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
 
 /// Optical densities of matter in red, green and blue.
 fn dyes(matter: Matter) -> [f32; 3] {
-    let cytoplasm = matter.cytoplasm / (DRY[0] + DRY[1] * matter.cytoplasm.abs());
-    std::array::from_fn(|k| {
-        HAEMOGLOBIN[k] * matter.haemoglobin + CYTOPLASM[k] * cytoplasm + NUCLEUS[k] * matter.nucleus
-    })
+    let cytoplasm = larger(matter.cytoplasm, 0.0);
+    let cytoplasm = cytoplasm / (DRY[0] + DRY[1] * cytoplasm);
+    let haemoglobin = matter.haemoglobin - PRESSED[1] * larger(matter.haemoglobin - PRESSED[0], 0.0);
+    std::array::from_fn(|k| HAEMOGLOBIN[k] * haemoglobin + CYTOPLASM[k] * cytoplasm + NUCLEUS[k] * matter.nucleus)
 }

@@ -51,7 +51,7 @@ float nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
     }
     float uneven = three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
     depth += 0.025 * middle.z * uneven;
-    float width = max(softness, 0.12);
+    float width = max(softness, NUCLEUS_EDGE);
     return rising(-width, width, depth) * (1.0 + ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25));
 }
 

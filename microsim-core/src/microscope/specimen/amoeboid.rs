@@ -41,6 +41,12 @@ const RAGS: f32 = 0.38;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
 const RAGS_BEHIND: f32 = 0.6;
+/// The most by which it is ragged, in the cell's mean radii.
+const MOST_RAGS: f32 = 0.045;
+/// Mean radius of a cell that is as thick as its look says; smaller ones are thinner.
+const THICK_FROM: f32 = 18.0;
+/// Delay of the thinnest, radians.
+const THINNEST: f32 = 0.85;
 /// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
 const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
@@ -50,7 +56,9 @@ const BENDS: f32 = 0.35;
 const CHROMATIN: [f32; 2] = [-0.80, 0.55];
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
 const CLUMPS: f32 = 1.8;
-const ENVELOPE: f32 = 0.14;
+const ENVELOPE: f32 = 0.08;
+/// Half the width over which the edge of a nucleus fades, micrometres.
+const NUCLEUS_EDGE: f32 = 0.25;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 0.2;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
@@ -68,6 +76,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("CHROMATIN", &CHROMATIN),
         ("CLUMPS", &[CLUMPS]),
         ("ENVELOPE", &[ENVELOPE]),
+        ("NUCLEUS_EDGE", &[NUCLEUS_EDGE]),
         ("DYED", &[DYED]),
     ],
 };
@@ -186,10 +195,10 @@ impl AmoeboidBody {
         let [from, to] = self.border();
         uniforms.extend([from, to, look.lamella.thickness * self.pulse(), self.time * RUFFLING % 256.0]);
         uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
-        uniforms.extend(look.matter.to_array());
+        uniforms.extend(self.matter().to_array());
         uniforms.extend(look.nucleus.matter.to_array());
         uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size, look.nucleus.bent]);
-        uniforms.extend([look.lamella.rags, PULSE * (self.pulse() - 1.0)]);
+        uniforms.extend([self.rags(), PULSE * (self.pulse() - 1.0)]);
         let nowhere = (Vec2::ZERO, -1000.0);
         let lobes = self.lobes.iter().copied().chain(std::iter::repeat(nowhere)).take(LOBES);
         uniforms.extend(lobes.flat_map(|(at, radius)| [at.x, at.y, radius]));
@@ -202,6 +211,17 @@ impl AmoeboidBody {
         smaller(self.look.rim, 0.6 * self.radius)
     }
 
+    fn rags(&self) -> f32 {
+        smaller(self.look.lamella.rags, MOST_RAGS * self.radius)
+    }
+
+    /// Its matter where it is thickest.
+    fn matter(&self) -> Matter {
+        let thin = smaller(self.radius / THICK_FROM, 1.0);
+        let Matter { phase, .. } = self.look.matter;
+        Matter { phase: smaller(phase, larger(phase * thin, THINNEST)), ..self.look.matter }
+    }
+
     /// How wide its rims are at a place of its own frame, as a share of their width.
     fn rim_share(&self, own: Vec2) -> f32 {
         1.0 + RIM_UNEVEN * octaves(own / (RIM_SIZE * self.radius), 1, self.seed ^ SALTS[3])
@@ -211,18 +231,18 @@ impl AmoeboidBody {
     fn at(&self, place: Vec2, softness: f32) -> Matter {
         let look = self.look;
         let depth = self.field.at(place);
-        if depth <= -softness - 2.0 * look.lamella.rags {
+        if depth <= -softness - 2.0 * self.rags() {
             return Matter::NONE;
         }
         let lamella = self.lamella(place);
         let own = self.from_shape * (place - self.centre);
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 3, self.seed ^ SALTS[1]);
         let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
-        let depth = depth + look.lamella.rags * (ragged + lamella * PULSE * (self.pulse() - 1.0));
+        let depth = depth + self.rags() * (ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim() * self.rim_share(own);
         let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
-        let mut matter = look.matter * (dome * (1.0 + look.texture.amount * uneven));
+        let mut matter = self.matter() * (dome * (1.0 + look.texture.amount * uneven));
         matter.cytoplasm *= 1.0 + DYED * uneven;
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
         if ruffle > 0.01 {
@@ -291,7 +311,7 @@ impl AmoeboidBody {
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
         let uneven = 0.025 * self.radius * octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
-        let edge = larger(softness, 0.12);
+        let edge = larger(softness, NUCLEUS_EDGE);
         let depth = depth + uneven;
         let envelope = ENVELOPE * larger(1.0 + 40.0 * uneven / self.radius, 0.0);
         smoothstep(-edge, edge, depth) * (1.0 + envelope * bell((depth - 0.2) / 0.25))

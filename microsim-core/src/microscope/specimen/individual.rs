@@ -100,7 +100,7 @@ impl Hollow {
         let kind = rng.unit();
         let (is_flat, is_slit) = (kind < FLAT, kind > 1.0 - SLIT);
         let is_target = (FLAT..FLAT + TARGET).contains(&kind);
-        let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.28, 0.66]) };
+        let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.38, 0.76]) };
         let stretch = if is_slit { rng.range([1.35, 1.75]) } else { libm::expf(0.13 * rng.normal().abs()) };
         let direction = rng.direction();
         let turn = Mat2::from_cols(Vec2::new(direction.x, -direction.y), Vec2::new(direction.y, direction.x));
@@ -115,9 +115,9 @@ impl Hollow {
         } else if is_target {
             -0.6 - 0.4 * share
         } else {
-            share.sqrt()
+            1.0 - (1.0 - share) * (1.0 - share) * (1.0 - share)
         };
-        let dried = [rng.unit(), 0.8 * rng.unit(), depth * (1.0 - pose.steepness()), rng.unit()];
+        let dried = [rng.unit(), 0.8 * rng.unit(), depth * (1.0 - pose.steepness()), rng.range([0.4, 1.0])];
         Self { to_hollow, centre: to_hollow * at, area: radius * radius, dried }
     }
 

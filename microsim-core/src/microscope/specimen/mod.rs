@@ -33,9 +33,11 @@ use thread::Thread;
 /// How far rods are bent, share of their length; how much their width, and how far their ends reach, differ, in radii; share
 /// that are about to divide.
 const ROD_BEND: f32 = 0.05;
-const ROD_WIDTH: f32 = 0.10;
-const ROD_ENDS: f32 = 0.45;
-const ROD_SEPTA: f32 = 0.35;
+const ROD_WIDTH: f32 = 0.08;
+const ROD_ENDS: f32 = 0.35;
+const ROD_SEPTA: f32 = 0.15;
+/// Radius of the drops that a rod is made of, in its own: they are soft.
+const ROD_REACH: f32 = 1.25;
 /// Distance of the drops that a rod is made of, in radii.
 const ROD_STEP: f32 = 0.4;
 /// Farthest that anything of an organism reaches beyond its bounds: share of their longer side, and micrometres. Fibres and
@@ -158,11 +160,11 @@ fn rod(organism: OrganismView<'_>, matter: Matter, seed: u32) -> Vec<Spot> {
     let cap = head.radius / larger(way.length(), head.radius);
     let [from, to] = [0.0, 1.0].map(|end| end + ROD_ENDS * cap * rng.range([-1.0, 1.0]));
     let bend = way.perp() * (ROD_BEND * rng.normal());
-    let width = head.radius * (1.0 + ROD_WIDTH * rng.range([-1.0, 0.6]));
+    let width = head.radius * (ROD_REACH + ROD_WIDTH * rng.range([-1.0, 0.6]));
     let septum = if rng.unit() < ROD_SEPTA { rng.range([0.15, 0.4]) } else { 0.0 };
     let poles = [rng.range([0.75, 1.25]), rng.range([0.75, 1.25])];
     let parts = (way.length() / (ROD_STEP * head.radius)).ceil().clamp(1.0, 64.0);
-    // Drops reach 1.25 radii; so many of them lie over each other that the rod is as thick as one on its own.
+    // So many of them lie over each other that the rod is as thick as one on its own.
     let spot = |k: u32| {
         let share = mix(from, to, k as f32 / parts);
         let from_middle = 2.0 * share - 1.0;

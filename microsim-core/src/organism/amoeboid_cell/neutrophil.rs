@@ -10,12 +10,12 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     lamella: Lamella { length: 0.33, thickness: 0.30, ruffle: 0.22, ruffle_inset: 0.45, rags: 0.45, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [3, 5],
-        radius: [0.24, 0.30],
+        radius: [0.27, 0.34],
         behind: 0.16,
         spread: 0.42,
         bent: 0.10,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 1.0 },
-        texture: Texture { amount: 0.32, size: 0.8 },
+        texture: Texture { amount: 0.24, size: 0.9 },
         nucleoli: [0, 0],
     },
     granules: &[DENSE, CLEAR, VACUOLES],
@@ -34,7 +34,7 @@ const DENSE: GranuleLook = GranuleLook {
     limits: [0.09, 0.45],
     gathered: 0.75,
     companions: 0,
-    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 3.4, nucleus: 0.0 },
+    matter: Matter { phase: 0.038 * WAVE, haemoglobin: 0.0, cytoplasm: 2.4, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 
@@ -45,7 +45,7 @@ const CLEAR: GranuleLook = GranuleLook {
     limits: [0.1, 0.4],
     gathered: 0.75,
     companions: 0,
-    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -2.8, nucleus: 0.0 },
+    matter: Matter { phase: -0.034 * WAVE, haemoglobin: 0.0, cytoplasm: -0.7, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };
 

@@ -20,7 +20,7 @@ const AROUND: f32 = 0.32;
 const PATCHES: f32 = 0.40;
 /// A nucleolus: dense, of RNA and protein; and the chromatin that it takes the place of.
 const NUCLEOLUS: Matter = Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.0 };
-const DISPLACED: Matter = Matter { phase: -0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: -0.34 };
+const DISPLACED: Matter = Matter { phase: -0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: -0.22 };
 /// Share of the regions of granules that are out of focus.
 const OUT_OF_FOCUS: f32 = 0.3;
 /// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
