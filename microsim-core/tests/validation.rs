@@ -338,7 +338,7 @@ fn a_cell_that_crawls_by_pseudopods_changes_its_shape_as_cells_do_and_obeys() {
         let [first, back] = crawl::delays(&spec, seed).unwrap();
         assert!(first <= 0.1 && back <= 0.2, "seed {seed}: moves after {first} s, turns within {back} s");
     }
-    let [number, angle] = [numbers, angles].map(|sum| sum / seeds.count() as f64);
+    let [number, angle] = [numbers, angles].map(|sum| sum / seeds.clone().count() as f64);
     assert!(number > 0.8, "one to three pseudopods for {number} of the time");
     assert!((46.0..70.0).contains(&angle), "splits at {angle} degrees");
 }

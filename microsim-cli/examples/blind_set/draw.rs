@@ -1,36 +1,16 @@
-//! Crops of ours: a preparation that is usual for the optics, at any time, seen anywhere.
+//! Crops of ours: any scenario, at any time, seen anywhere inside the room.
 
-use crate::{Crop, Outcome, SIDE, culture, pick};
+use crate::{Crop, Outcome, SIDE, pick};
 use microsim_core::glam::Vec2;
 use microsim_core::microscope::{Field, Film, Microscope, Optics};
 use microsim_core::scenario::{Scenario, builtin};
 use microsim_core::{Rng, World};
 
-/// What is put under a microscope of some kind.
-struct Practice {
-    optics: Optics,
-    preparations: &'static [&'static str],
-}
-
-/// Smears are of blood; what shines is what has a nucleus.
-const PRACTICES: [Practice; 5] = [
-    Practice { optics: Optics::STAINED, preparations: &["hunt"] },
-    Practice {
-        optics: Optics::PHASE_CONTRAST,
-        preparations: &["bacteria", "bacteria", "cells", "cells", "hunt", "divide"],
-    },
-    Practice { optics: Optics::BRIGHT_FIELD, preparations: &["hunt", "pond", "cells"] },
-    Practice { optics: Optics::DIC, preparations: &["hunt", "pond", "cells"] },
-    Practice { optics: Optics::FLUORESCENCE, preparations: &["bacteria", "cells", "cells", "hunt", "divide"] },
-];
-/// Sides of a pixel that the objectives used for a preparation give, micrometres; a smear is always seen with one.
-const PIXELS: [(&str, [f32; 2]); 5] = [
-    ("bacteria", [0.05, 0.13]),
-    ("cells", [0.1, 0.39]),
-    ("hunt", [0.08, 0.19]),
-    ("divide", [0.1, 0.22]),
-    ("pond", [0.15, 0.52]),
-];
+const SCENARIOS: [&str; 7] = ["hunt", "demo", "pond", "divide", "squeeze", "absorb-rigid", "absorb-agar"];
+const OPTICS: [Optics; 5] =
+    [Optics::STAINED, Optics::PHASE_CONTRAST, Optics::BRIGHT_FIELD, Optics::DIC, Optics::FLUORESCENCE];
+/// Sides of a pixel that objectives give, micrometres; a smear is always seen with one.
+const PIXELS: [f32; 2] = [0.08, 0.22];
 const SMEAR: f32 = 1.0 / 12.6;
 /// Longest that a scenario runs before it is seen, s.
 const LATEST: f64 = 8.0;
@@ -43,18 +23,12 @@ const WHITE: [f32; 2] = [0.998, 0.9995];
 
 /// The optics that a file of references is named after, if any.
 pub(crate) fn optics_of(name: &str) -> Option<Optics> {
-    let named = |practice: &&Practice| name.starts_with(&practice.optics.name().replace('-', "_"));
-    PRACTICES.iter().find(named).map(|practice| practice.optics)
+    OPTICS.into_iter().find(|optics| name.starts_with(&optics.name().replace('-', "_")))
 }
 
-/// The world of a preparation, at any time if it is a scenario.
+/// The world of a scenario, with any seed at any time.
 fn world_of(name: &str, rng: &mut Rng) -> Outcome<World> {
     let time = LATEST * f64::from(rng.unit());
-    match name {
-        "bacteria" => return Ok(culture::bacteria(rng)?),
-        "cells" => return Ok(culture::cells(rng)?),
-        _ => {}
-    }
     let mut scenario = Scenario::parse(builtin(name).ok_or(name)?.text, &[])?;
     scenario.set_seed(u64::from(rng.next_u32()));
     let built = scenario.build()?;
@@ -68,25 +42,25 @@ fn world_of(name: &str, rng: &mut Rng) -> Outcome<World> {
 
 /// A crop in these optics, or in any.
 pub(crate) fn ours(optics: Option<Optics>, rng: &mut Rng) -> Outcome<Crop> {
-    let any = &PRACTICES[pick(rng, PRACTICES.len())];
-    let practice = PRACTICES.iter().find(|practice| Some(practice.optics) == optics).unwrap_or(any);
-    let name = practice.preparations[pick(rng, practice.preparations.len())];
+    let optics = optics.unwrap_or(OPTICS[pick(rng, OPTICS.len())]);
+    let name = SCENARIOS[pick(rng, SCENARIOS.len())];
     let world = world_of(name, rng)?;
     let size = world.config().size;
-    let [finest, coarsest] = PIXELS.iter().find(|pixels| pixels.0 == name).ok_or(name)?.1;
+    let [finest, coarsest] = PIXELS;
     let any = finest * (coarsest / finest).powf(rng.unit());
-    let pixel = if practice.optics == Optics::STAINED { SMEAR } else { any };
+    let pixel = if optics == Optics::STAINED { SMEAR } else { any };
     let width = pixel * FIELD as f32;
-    let centre = aim(&world, width, rng).clamp(Vec2::splat(0.5 * width), size - 0.5 * width);
+    let margin = Vec2::splat(0.5 * width).min(0.5 * size);
+    let centre = aim(&world, width, rng).clamp(margin, size - margin);
     let film = Film::DIGITAL;
     let field = Field { centre, width, pixels: [FIELD as u32; 2] };
-    let exposure = Microscope { optics: practice.optics, film }.expose(&world, field)?;
+    let exposure = Microscope { optics, film }.expose(&world, field)?;
     let mut bytes = exposure.rows(0..FIELD);
-    if practice.optics == Optics::FLUORESCENCE {
+    if optics == Optics::FLUORESCENCE {
         one_dye(&mut bytes, rng);
     }
-    if practice.optics != Optics::STAINED {
-        stretch(&mut bytes, WHITE[usize::from(practice.optics == Optics::FLUORESCENCE)]);
+    if optics != Optics::STAINED {
+        stretch(&mut bytes, WHITE[usize::from(optics == Optics::FLUORESCENCE)]);
     }
     let [left, top] = [(); 2].map(|()| pick(rng, FIELD - SIDE + 1));
     let row = |y: usize| ((top + y) * FIELD + left) * 3..((top + y) * FIELD + left + SIDE) * 3;
@@ -95,7 +69,7 @@ pub(crate) fn ours(optics: Option<Optics>, rng: &mut Rng) -> Outcome<Crop> {
         world.time(),
         centre.x,
         centre.y,
-        practice.optics.name()
+        optics.name()
     );
     Ok(Crop { bytes: (0..SIDE).flat_map(|y| bytes[row(y)].to_vec()).collect(), origin })
 }

@@ -8,7 +8,6 @@
 
 mod coding;
 mod crop;
-mod culture;
 mod draw;
 
 use microsim_core::Rng;
