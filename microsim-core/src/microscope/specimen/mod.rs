@@ -5,6 +5,7 @@ pub(super) mod background;
 pub(super) mod chamber;
 pub(super) mod distance_field;
 mod front;
+mod hollow;
 mod individual;
 mod polar_outline;
 mod pose;
@@ -12,6 +13,7 @@ pub(super) mod round;
 mod spline;
 pub(super) mod spot;
 pub(super) mod thread;
+mod uneven_outline;
 
 use super::maths::{bell, larger, mix};
 use super::matter::{Matter, MatterRaster};

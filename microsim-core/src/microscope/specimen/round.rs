@@ -2,12 +2,13 @@
 
 mod inclusions;
 
-use super::individual::{self, Hollow, KNOB};
+use super::hollow::{Hollow, KNOB};
 use super::polar_outline::PolarOutline;
 use super::pose::Pose;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
+use super::{individual, uneven_outline};
 use crate::geometry::{direction_or, rotate, unit_vector};
 use crate::look::{Cilia, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::glsl::{Glsl, glsl_text};
@@ -94,7 +95,7 @@ impl RoundBody {
         let first = surface.first().map_or(Vec2::X, |&node| node - polar.centre);
         let facing = direction_or(first, Vec2::X);
         let mut rng = HashRng::new(seed);
-        individual::reshape(&mut polar, facing, &look.outline, &mut rng);
+        uneven_outline::reshape(&mut polar, facing, &look.outline, &mut rng);
         let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         if let Some(pellicle) = look.pellicle {
             make_slipper(&mut polar, facing, axes, pellicle.slipper);
