@@ -1,5 +1,6 @@
 //! Shows the problems of a scenario with the lines that cause them.
 
+use crate::counted::counted;
 use crate::sanitize;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
@@ -30,8 +31,7 @@ pub(crate) fn render(source: &ScenarioText, problems: &Diagnostics, is_coloured:
         text.push_str(&format!("\n\n{}", sanitize::line(&more.to_string())));
     }
     let count = problems.len() + problems.left_out().iter().map(|more| more.count).sum::<usize>();
-    let plural = if count == 1 { "" } else { "s" };
-    text.push_str(&format!("\n\nerror: {count} problem{plural} in {}", sanitize::line(&source.origin)));
+    text.push_str(&format!("\n\nerror: {} in {}", counted(count, "problem"), sanitize::line(&source.origin)));
     text
 }
 

@@ -7,6 +7,7 @@
 mod args;
 mod checkpoint;
 mod console;
+mod counted;
 mod diagnostics;
 mod draw;
 mod failure;

@@ -88,6 +88,12 @@ impl Viewer {
         world.view_since(&self.before, self.alpha)
     }
 
+    /// How far that moment lies between the two steps, 0 to 1.
+    #[must_use]
+    pub fn alpha(&self) -> f32 {
+        self.alpha
+    }
+
     /// Where somebody is at the moment that is seen.
     #[must_use]
     pub fn place_of(&self, world: &World, id: Option<OrganismId>) -> Option<Vec2> {

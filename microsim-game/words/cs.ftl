@@ -111,6 +111,7 @@ hint-chain-crawl = Drž { $what }, lez a tlač se čelem na potravu.
 hint-chain-clock = Hodiny ukazují, jak dlouho ti potrava vystačí: bez další zahyneš hladem.
 hint-chain-rivals = Blíží se soupeři, jdou po pachu. Kroužek: můžeš ho sníst. Výstražná značka: sní tebe.
 hint-chain-giant = Blíží se obři, jdou po pachu. Uteč: soupeři mezerami projdou, obři ne.
+hint-chain-ghost = Bledý obrys je tvůj nejdelší život v této vodě.
 hint-chain-divide = { $key }: buňka se rozdělí a sestra je druhý život.
 hint-chain-button = Tlačítko
 lesson-ready = Zelená šipka: na pohlcení této buňky už máš dost velké tělo.

@@ -109,6 +109,7 @@ hint-chain-crawl = Hold { $what } to crawl, and push your front against food.
 hint-chain-clock = The clock shows how long your food lasts: without more you starve.
 hint-chain-rivals = Rivals are coming, after your scent. A ring: you can eat it. A warning sign: it eats you.
 hint-chain-giant = Giants are coming, after your scent. Flee: rivals fit through the gaps, giants do not.
+hint-chain-ghost = The pale outline is your longest life in this water.
 hint-chain-divide = { $key } divides your cell: the sister is a second life.
 hint-chain-button = The button
 lesson-ready = A green arrow: you are large enough to take this cell in.

@@ -65,7 +65,8 @@ pub(crate) fn ours(optics: Option<Optics>, rng: &mut Rng) -> Outcome<Crop> {
     let [left, top] = [(); 2].map(|()| pick(rng, FIELD - SIDE + 1));
     let row = |y: usize| ((top + y) * FIELD + left) * 3..((top + y) * FIELD + left + SIDE) * 3;
     let origin = format!(
-        "ours {name} --at {} --view {},{},{width} --optics {} {left} {top}",
+        "ours {name} --seed {} --at {} --view {},{},{width} --optics {} {left} {top}",
+        world.config().seed,
         world.time(),
         centre.x,
         centre.y,

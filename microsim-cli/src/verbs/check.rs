@@ -1,6 +1,7 @@
 //! `check`: whether a scenario can be run.
 
 use crate::console::print;
+use crate::counted::counted;
 use crate::diagnostics::ScenarioText;
 use crate::failure::Failure;
 use crate::prepared::{Prepared, prepare};
@@ -45,7 +46,8 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
 fn print_summary(prepared: &Prepared) -> Result<(), Failure> {
     let Census { organisms, bodies, particles, constraints, .. } = prepared.built.world.census();
     let name = prepared.scenario.name();
-    let size = format!("{organisms} organisms, {bodies} bodies, {particles} particles, {constraints} constraints");
+    let counts = [(organisms, "organism"), (bodies, "body"), (particles, "particle"), (constraints, "constraint")];
+    let size = counts.map(|(count, noun)| counted(count, noun)).join(", ");
     Ok(print(format!("ok: {}, {size}\n", sanitize::line(name)))?)
 }
 

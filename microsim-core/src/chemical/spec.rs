@@ -19,7 +19,7 @@ pub struct ChemicalSpec {
     /// Diffusion coefficient, square units/s, 0 to 100 000, and at most what 256 rounds of diffusion in a step carry: about
     /// 40 `spacing`² over the time of a step.
     pub diffusion: f32,
-    /// Share that decays in a second where little of it does, 1/s, 0 to 100, and at most 0.05 over the step: 3 by default.
+    /// Share that decays in a second where little of it does, 1/s, 0 to 100, and at most 0.05 in a step: 3 with the usual step of 1/60 s.
     pub decay: f32,
     /// Side of a cell of the grid, units, 0.1 to 1000; made a little smaller or larger so that cells fill the room.
     pub spacing: f32,

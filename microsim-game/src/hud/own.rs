@@ -1,7 +1,7 @@
 //! The player's own cell has a rim that no other has, in every way of looking. Cells of several players have numbers.
 
 use super::marks::Style;
-use crate::draw::palette::{INK, PLAYERS, READY, fade};
+use crate::draw::palette::{HALO, INK, PLAYERS, READY, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use microsim_core::OrganismView;
@@ -27,6 +27,17 @@ pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number
     }
 }
 
+/// Draws the outline of a ghost: every other segment, pale.
+pub fn draw_ghost(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
+    let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
+    let width = 0.06 * pen.line(TextSize::Body);
+    for (width, colour) in [(2.2 * width, fade(INK, 0.25)), (width, fade(HALO, 0.6))] {
+        for ends in outline.windows(2).step_by(2) {
+            pen.canvas().segment(ends[0], ends[1], width, colour);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,7 +58,12 @@ mod tests {
         let (a, b) = (camera.to_screen(low), camera.to_screen(high));
         let is_near = |at: Vec2| at.cmpgt(a.min(b) - 6.0).all() && at.cmplt(a.max(b) + 6.0).all();
         let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
-        assert!(corners.len() >= 8 * cell.outline().len() && corners.into_iter().all(is_near));
+        assert!(corners.len() >= 8 * cell.outline().len() && corners.iter().copied().all(is_near));
+        let mut pen = Pen::bare();
+        draw_ghost(&mut pen, &style, cell);
+        let dashes: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
+        assert!(dashes.len() > corners.len() / 3 && dashes.len() < 2 * corners.len() / 3, "{}", dashes.len());
+        assert!(dashes.into_iter().all(is_near));
     }
 
     #[test]

@@ -7,7 +7,6 @@
 //! Nothing here reads a clock or opens a window; all that comes from others is hostile until it is checked.
 
 pub mod contest;
-mod cost;
 mod guest;
 #[cfg(any(test, fuzzing))]
 pub mod hostile;
@@ -16,6 +15,7 @@ mod moment;
 mod packet;
 pub mod plan;
 mod post;
+mod prediction_window;
 pub mod relay;
 mod report;
 pub mod rollback_pacing;

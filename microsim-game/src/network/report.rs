@@ -48,7 +48,7 @@ impl Session {
     /// Most frames that are predicted on this machine.
     #[must_use]
     pub fn window(&self) -> u32 {
-        self.cost.window(self.pacing)
+        self.prediction.frames(self.pacing)
     }
 
     /// Digests of what is final, by frame.

@@ -3,9 +3,9 @@
 //!
 //! Inputs of a match are kept from its first frame on (five bytes each), so there is no input that could be too old to be sent.
 
-use super::cost::Cost;
 use super::moment::{Moment, Tally};
 use super::packet::{Packet, Run, Takeover};
+use super::prediction_window::PredictionWindow;
 use super::rollback_pacing::Pacing;
 use super::told::Told;
 use super::track::{Guest, Track};
@@ -49,7 +49,7 @@ pub struct Session {
     pub(super) tally: Tally,
     /// Frames that the last call took, those that were taken again too.
     pub(super) taken: u32,
-    pub(super) cost: Cost,
+    pub(super) prediction: PredictionWindow,
     /// What was heard and earned in the last frame, if one was taken.
     heard: Vec<Cue>,
     gains: Vec<Gain>,
@@ -88,7 +88,7 @@ impl Session {
             desync: None,
             tally: Tally::default(),
             taken: 0,
-            cost: Cost::default(),
+            prediction: PredictionWindow::default(),
             heard: Vec::new(),
             gains: Vec::new(),
         }
@@ -226,7 +226,7 @@ impl Session {
     /// Notes how long the last call of [`Session::advance`] took. Where frames take long, fewer are predicted, so that going back takes
     /// no longer than it may; the worlds are the same.
     pub fn note_time(&mut self, time: Duration) {
-        self.cost.note(self.taken, time);
+        self.prediction.note(self.taken, time);
     }
 
     fn go_back(&mut self, to: u32) {

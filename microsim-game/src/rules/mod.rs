@@ -13,6 +13,7 @@ pub mod brake;
 pub mod chain_bot;
 pub mod flight;
 pub mod food_chain;
+pub mod ghost;
 pub mod hint;
 pub mod lesson;
 pub mod path;

@@ -34,6 +34,11 @@ pub(super) fn advice(time: f64, divide: &str, has_buttons: bool) -> Option<Strin
     parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
 }
 
+/// What a ghost is, after what the game is.
+pub(super) fn ghost_advice(time: f64) -> Option<String> {
+    (12.0..18.0).contains(&time).then(|| words::text(Key::HintChainGhost).to_owned())
+}
+
 /// What the status says of a cell: how long its line has lived, and time until it starves.
 pub(super) fn status(round: &Round, cell: OrganismId) -> Option<(String, [f32; 2])> {
     let (chain, world) = (round.chain()?, round.world());
@@ -113,6 +118,12 @@ mod tests {
             assert_eq!(told(3.0).as_deref(), Some(words::text(hint)), "{of}");
             assert_eq!(told(8.0), None);
         }
+    }
+
+    #[test]
+    fn a_ghost_is_explained_while_nothing_else_is() {
+        let times: Vec<f64> = (0..600).map(f64::from).filter(|time| ghost_advice(*time).is_some()).collect();
+        assert!(times.len() == 6 && times.iter().all(|time| advice(*time, "X", false).is_none()), "{times:?}");
     }
 
     #[test]

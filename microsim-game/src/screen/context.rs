@@ -15,6 +15,7 @@ use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
 use crate::stage::Stage;
+use crate::store::best_life::BestLife;
 use crate::store::best_times::BestTimes;
 use crate::store::chain_records::ChainRecords;
 use crate::store::files::PlayerFolder;
@@ -118,6 +119,8 @@ pub struct AppContext {
     pub best_times: BestTimes,
     /// What the player has reached in the food chain.
     pub chain_records: ChainRecords,
+    /// The longest life in a water of the food chain.
+    pub best_life: BestLife,
     /// What the player has found of the field guide.
     pub found: FoundEntries,
     /// How time passes in this frame.
@@ -163,6 +166,7 @@ impl AppContext {
         let (best_times, third_problem) = BestTimes::load(&store);
         let (chain_records, fourth_problem) = ChainRecords::load(&store);
         let found = FoundEntries::load(&store);
+        let best_life = BestLife::load(&store);
         let last_game = store.read(LAST_GAME);
         let mut context = Self {
             scenery: Scenery::new(),
@@ -175,6 +179,7 @@ impl AppContext {
             scores,
             best_times,
             chain_records,
+            best_life,
             found,
             pace: Pace { elapsed: 0.0, is_exact: false },
             time: 0.0,

@@ -49,9 +49,12 @@ impl FoodChainEnd {
         let before = context.chain_records.best;
         let place = result.record.map(|record| {
             let (place, kept) = context.scores.add(score, &context.store);
-            let day = Some(life.seed).filter(|seed| *seed == todays_seed(context));
+            let today = todays_seed(context);
+            let day = Some(life.seed).filter(|seed| *seed == today);
             let kept = kept.and(context.chain_records.add(feats, day, &context.store));
-            context.keep_game(record, kept);
+            let is_plain = matches!(played, Paused::FoodChain(_));
+            let ghost = if is_plain { context.best_life.add(&record, today, &context.store) } else { Ok(()) };
+            context.keep_game(record, kept.and(ghost));
             place
         });
         let heading = |told| (TextSize::Large, HALO, doubted(told, result.is_mismatch), 0);

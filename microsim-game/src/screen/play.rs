@@ -16,6 +16,7 @@ use crate::platform;
 use crate::rules::attempt::Attempt;
 use crate::rules::bot::Bot;
 use crate::rules::food_chain::NAME;
+use crate::rules::ghost::Ghost;
 use crate::rules::hint::{Hints, taken_in};
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
@@ -33,6 +34,8 @@ const TASK_TIME: f64 = 9.0;
 /// How strong the tint of a chemical is at most.
 const SCENT: f32 = 0.6;
 const ADVICE_TIME: f64 = 7.0;
+/// A ghost is given up when a step takes longer than this with it, ms.
+const GHOST_STEP: f32 = 10.0;
 
 /// A round on the screen.
 #[derive(Debug)]
@@ -57,6 +60,8 @@ pub(super) struct Play {
     /// How two cells play, if it is a round of two, and who steers the second one in place of a player.
     two: Option<TwoPlayers>,
     bot: Option<Bot>,
+    /// The player's best life in this water.
+    ghost: Option<Ghost>,
     /// What is written on the key that divides the cell.
     divide_key: String,
 }
@@ -86,7 +91,9 @@ impl Play {
     /// As for [`Play::start`].
     pub(super) fn food_chain(seed: u64, context: &AppContext) -> Result<Self, String> {
         let game = GameChoice { source: NAME.into(), overrides: Vec::new(), seed: Some(seed) };
-        Ok(Self::new(game.round(seed)?, Paused::FoodChain(seed), context))
+        let mut play = Self::new(game.round(seed)?, Paused::FoodChain(seed), context);
+        play.ghost = context.best_life.record().and_then(|record| Ghost::of(record, play.round.world()));
+        Ok(play)
     }
 
     /// Two cells on one slide.
@@ -138,6 +145,7 @@ impl Play {
             own,
             hands: Hands::default(),
             two,
+            ghost: None,
             divide_key: context.settings.keys.label(Action::Divide),
         }
     }
@@ -151,7 +159,7 @@ impl Play {
         }
         let goals = self.hands.goals(input, &self.viewer.camera, &self.round, self.two);
         let digests = context.settings.digests(input);
-        let Self { round, viewer, gains, pulses, heard, hands, bot, .. } = self;
+        let Self { round, viewer, gains, pulses, heard, hands, bot, ghost, .. } = self;
         let mut digested = Vec::new();
         heard.clear();
         viewer.run(context.pace, context.settings.pace(), round, |round| {
@@ -160,6 +168,7 @@ impl Play {
                 *intent = bot.intent(round.world(), cell);
             }
             round.step_all(&intents);
+            ghost.iter_mut().for_each(Ghost::step);
             heard.extend(round.heard());
             gains.add(round.gains());
             let cells: Vec<OrganismId> = round.players().collect();
@@ -167,6 +176,9 @@ impl Play {
             digested.extend(round.gains().map(|gain| gain.kind));
             round.world()
         });
+        if self.viewer.step_ms() > GHOST_STEP {
+            self.ghost = None;
+        }
         self.gains.pass(context.pace.elapsed);
         if let Some(attempt) = self.round.attempt() {
             self.done.pass(attempt, context.pace.elapsed);
@@ -199,6 +211,9 @@ impl Play {
     fn draw_marks(&self, pen: &mut Pen, style: &marks::Style<'_>, view: View<'_>, hints: &Hints) {
         let mut taken = marks::MarkLayout::default();
         let (seen, is_alone) = (self.seen(), self.round.players().count() == 1);
+        if let Some(cell) = self.ghost.as_ref().and_then(|ghost| ghost.cell(self.viewer.alpha())) {
+            own::draw_ghost(pen, style, cell);
+        }
         for (k, id) in self.round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
                 let width = if k == self.own { self.pulses.rim() } else { own::OTHERS };
@@ -244,7 +259,8 @@ impl Play {
         if self.round.is_replay() {
             None
         } else if self.round.chain().is_some() {
-            chain_scene::advice(time, &self.divide_key, has_buttons)
+            let of_ghost = || self.ghost.as_ref().and_then(|_| chain_scene::ghost_advice(time));
+            chain_scene::advice(time, &self.divide_key, has_buttons).or_else(of_ghost)
         } else if let Some(task) = &self.task {
             let how = held_to_crawl(has_buttons);
             let alone = || words::text_with(Key::HintTask, &[("task", task.into()), ("what", how.into())]);

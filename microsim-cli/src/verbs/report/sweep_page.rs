@@ -5,6 +5,7 @@ use super::data;
 use super::heat_map::HeatMap;
 use super::page::{Page, escape, figure, figures, folded};
 use super::scale::short;
+use crate::counted::counted;
 use crate::failure::Failure;
 use crate::verbs::sweep::TaskOutcome;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,13 +25,14 @@ pub(super) fn make(path: &Path) -> Result<String, Failure> {
     let seeds: BTreeSet<u64> = outcomes.iter().map(|outcome| outcome.seed).collect();
     let over: Vec<&str> = axes.iter().map(|(name, _)| name.as_str()).collect();
     let over = if over.is_empty() { String::new() } else { format!(" over {}", over.join(", ")) };
-    let mut page = Page::new(&title, &format!("{} tasks{over}, {} seeds", outcomes.len(), seeds.len()));
+    let mut page =
+        Page::new(&title, &format!("{}{over}, {}", counted(outcomes.len(), "task"), counted(seeds.len(), "seed")));
     page.warning(&broken(&outcomes));
     let quantities = quantities(&outcomes);
     let all: Vec<String> = quantities.iter().map(|quantity| picture(quantity, &outcomes, &axes)).collect();
     let results = if all.is_empty() { "<p>All tasks have equal results.</p>".to_owned() } else { figures(&all) };
     page.section("Results", &results);
-    page.section("All tasks", &folded(&format!("{} tasks", outcomes.len()), &tasks(&outcomes, &axes, &quantities)));
+    page.section("All tasks", &folded(&counted(outcomes.len(), "task"), &tasks(&outcomes, &axes, &quantities)));
     Ok(page.finish(&title))
 }
 

@@ -3,6 +3,7 @@
 use super::task::Task;
 use super::{Axis, PlanArgs};
 use crate::console::{Console, print};
+use crate::counted::counted;
 use crate::failure::Failure;
 use crate::json;
 use crate::prepared::{Prepared, load};
@@ -38,7 +39,7 @@ pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     print(lines)?;
-    console.note(&format!("{count} tasks"));
+    console.note(&counted(count, "task"));
     Ok(())
 }
 

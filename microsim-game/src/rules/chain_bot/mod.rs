@@ -1,7 +1,7 @@
 //! Bots that play the food chain, to tune it and to test its rules.
 
 use crate::rules::food_chain::bites::cytoplasm;
-use crate::rules::food_chain::change::Change;
+use crate::rules::food_chain::change::{Change, line_of};
 use crate::rules::food_chain::threats_and_victims;
 use crate::rules::hint::{Readiness, readiness};
 use crate::rules::path::PathMap;
@@ -22,7 +22,8 @@ pub enum Skill {
     Novice,
     /// Goes for the nearest food, and changes by chance.
     Forager,
-    /// Goes for the best food that no threat is near, flees, and takes the change that did best when it played on with each.
+    /// Goes for the best food that no threat is near, flees, divides in time, and takes the change that did best when it played on
+    /// with each.
     Survivor,
 }
 
@@ -35,6 +36,8 @@ impl Skill {
 const INTERVAL: u64 = 10;
 /// Distance from the rim of a threat within which a survivor flees, and takes no food, units.
 const DANGER: f32 = 13.0;
+/// Size at which a survivor divides that has no sister, 1 at the beginning.
+const DIVISION: f32 = 1.6;
 /// Time between two goals of the random bot, steps.
 const RANDOM_INTERVAL: u64 = 120;
 /// Time between two decisions of a novice, steps; how far off its heading is at most, rad; and how often it does nothing.
@@ -82,6 +85,9 @@ impl ChainBot {
 
     fn act(&mut self, round: &mut Round) {
         self.decide(round);
+        if self.skill == Skill::Survivor && is_to_divide(round) {
+            round.divide(0);
+        }
         round.step(self.intent);
     }
 
@@ -216,6 +222,15 @@ impl ChainBot {
         let for_the_way = |&(place, worth): &(Vec2, f32)| worth / (4.0 + place.distance(at));
         best.max_by(|a, b| for_the_way(a).total_cmp(&for_the_way(b))).map(|(place, _)| place)
     }
+}
+
+/// Whether a player has no sister and is large enough, and no threat is near.
+fn is_to_divide(round: &Round) -> bool {
+    let view = round.world().view();
+    let (Some(chain), Some(cell)) = (round.chain(), view.organism(round.player())) else { return false };
+    let [threats, _] = threats_and_victims(view, cell.id());
+    let is_alone = view.organisms().filter(|other| line_of(*other) == line_of(cell)).count() == 1;
+    is_alone && chain.size(cell) >= DIVISION && !threats.iter().any(|threat| is_near(threat, cell.centroid()))
 }
 
 fn is_near(threat: &Other, place: Vec2) -> bool {

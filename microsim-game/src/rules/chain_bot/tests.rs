@@ -55,6 +55,7 @@ fn who_eats_lives_longer_and_changes_and_it_is_played_again_to_the_bit() {
     let (round, choices) = play(Skill::Survivor, 1, 30.0);
     let cell = round.world().view().organism(round.player()).expect("it lives");
     assert!(!choices.is_empty() && change::changes(cell) == choices.len() as u32, "{choices:?}");
+    assert_eq!(round.result().life.unwrap().feats.changes, choices.len() as u32);
     let mut again = Round::again(&Replay::read(&round.record().unwrap()).unwrap()).unwrap();
     while !again.is_over() {
         again.step(Intent::REST);
@@ -77,7 +78,8 @@ fn a_sister_is_a_second_life() {
         round.step(Intent::REST);
         assert_eq!(round.world().census().leaks, 0);
     }
-    assert_eq!(round.result().life.unwrap().fate, Some(Fate::Starved));
+    let life = round.result().life.unwrap();
+    assert_eq!((life.fate, life.feats.divisions, life.feats.bites), (Some(Fate::Starved), 1, 0));
 }
 
 #[test]
@@ -113,6 +115,29 @@ fn the_larger_bites_and_the_smaller_is_gone_in_the_end() {
     assert_eq!(life.fate, Some(Fate::Eaten));
     let large = round.world().view().organisms().next().unwrap();
     assert!(bites::cytoplasm(large) > 80, "who bites keeps what it has");
+}
+
+#[test]
+fn each_bite_is_a_feat_of_the_one_who_bites() {
+    let mut round = room(
+        9.5,
+        "[amoeboid_cell.small]\nradii = [5.0, 5.0]\nspeed = 8.0\n[patrol.there]\nthrough = [[32.5, 30.0], [20.0, 30.0]]\n\
+         [[spawn]]\nof = \"small\"\nat = [35.5, 30.0]\ncontroller = \"there\"\n",
+    );
+    let prey = |round: &Round| {
+        let view = round.world().view();
+        view.organisms().find(|cell| cell.id() != round.player()).map(bites::cytoplasm)
+    };
+    let (first, mut left) = (prey(&round).unwrap(), 0);
+    while round.world().time() < 4.0
+        && let Some(now) = prey(&round)
+    {
+        left = now;
+        round.step(Intent::REST);
+    }
+    let bites = round.result().life.unwrap().feats.bites;
+    // The last one came after the last look.
+    assert!(bites > 2 && (0..=1).contains(&(bites + left - first)), "{bites}, {first}, {left}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What frames cost on this machine, and how many are predicted so that they can be taken again in time.
+//! How many frames are predicted at most: as many as this machine can take again in time.
 
 use super::rollback_pacing::Pacing;
 use std::time::Duration;
@@ -9,14 +9,14 @@ const BUDGET: f32 = 0.05;
 /// Weight of a frame in the mean: about a second counts.
 const WEIGHT: f32 = 1.0 / 32.0;
 
-/// The time of a frame.
+/// What the number follows from.
 #[derive(Debug, Default)]
-pub(super) struct Cost {
-    /// Moving mean, s.
+pub(super) struct PredictionWindow {
+    /// Moving mean of the time of a frame, s.
     mean: f32,
 }
 
-impl Cost {
+impl PredictionWindow {
     /// Notes the time that so many frames took. One that takes longer than the budget counts as that: it may have been the system.
     pub(super) fn note(&mut self, frames: u32, time: Duration) {
         if frames > 0 {
@@ -26,7 +26,7 @@ impl Cost {
     }
 
     /// Most frames that are predicted.
-    pub(super) fn window(&self, pacing: Pacing) -> u32 {
+    pub(super) fn frames(&self, pacing: Pacing) -> u32 {
         ((BUDGET / self.mean) as u32).clamp(pacing.delay + 1, pacing.window)
     }
 }
@@ -35,18 +35,18 @@ impl Cost {
 mod tests {
     use super::*;
 
-    fn after(cost: &mut Cost, calls: u32, frames: u32, each: f32) -> u32 {
-        (0..calls).for_each(|_| cost.note(frames, Duration::from_secs_f32(frames as f32 * each)));
-        cost.window(Pacing::USUAL)
+    fn after(window: &mut PredictionWindow, calls: u32, frames: u32, each: f32) -> u32 {
+        (0..calls).for_each(|_| window.note(frames, Duration::from_secs_f32(frames as f32 * each)));
+        window.frames(Pacing::USUAL)
     }
 
     #[test]
     fn frames_that_take_long_lower_the_window_and_others_raise_it_again_slowly() {
-        let mut cost = Cost::default();
+        let mut window = PredictionWindow::default();
         let windows = [(1, 1, 0.002), (1, 10, 0.025), (9, 10, 0.025), (1, 1, 0.002), (30, 1, 0.002), (90, 1, 0.002)]
-            .map(|(calls, frames, each)| after(&mut cost, calls, frames, each));
+            .map(|(calls, frames, each)| after(&mut window, calls, frames, each));
         assert_eq!(windows, [10, 7, 3, 3, 4, 10]);
-        assert_eq!(after(&mut cost, 1, 1, 9.0), 10, "one long frame is no slow machine");
-        assert_eq!(after(&mut cost, 1, 0, 9.0), 10, "no frame, no time of one");
+        assert_eq!(after(&mut window, 1, 1, 9.0), 10, "one long frame is no slow machine");
+        assert_eq!(after(&mut window, 1, 0, 9.0), 10, "no frame, no time of one");
     }
 }
