@@ -49,6 +49,12 @@ impl GameChoice {
         source + &changes.collect::<String>()
     }
 
+    /// Whether it is one of the program, with no value changed.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.overrides.is_empty() && !matches!(self.source, SceneSource::File(_))
+    }
+
     /// Time of a round, s; `None` if the scenario is no game.
     #[must_use]
     pub fn time(&self) -> Option<f32> {

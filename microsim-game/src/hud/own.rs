@@ -31,7 +31,7 @@ pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number
 pub fn draw_ghost(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
     let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
     let width = 0.06 * pen.line(TextSize::Body);
-    for (width, colour) in [(2.2 * width, fade(INK, 0.25)), (width, fade(HALO, 0.6))] {
+    for (width, colour) in [(2.2 * width, fade(INK, 0.5)), (width, fade(HALO, 0.8))] {
         for ends in outline.windows(2).step_by(2) {
             pen.canvas().segment(ends[0], ends[1], width, colour);
         }

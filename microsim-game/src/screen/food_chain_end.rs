@@ -45,6 +45,7 @@ impl FoodChainEnd {
         platform::offer_again(NAME, life.seed);
         let feats = life.feats;
         let game = if let Paused::FoodChain(_) = played { NAME.to_owned() } else { context.game_of(played).label() };
+        let is_plain = matches!(played, Paused::FoodChain(_)) || context.game_of(played).is_plain();
         let score = Score { game, time: LONGEST, points: feats.time, small: feats.small, rigid: feats.cells };
         let before = context.chain_records.best;
         let place = result.record.map(|record| {
@@ -52,7 +53,6 @@ impl FoodChainEnd {
             let today = todays_seed(context);
             let day = Some(life.seed).filter(|seed| *seed == today);
             let kept = kept.and(context.chain_records.add(feats, day, &context.store));
-            let is_plain = matches!(played, Paused::FoodChain(_));
             let ghost = if is_plain { context.best_life.add(&record, today, &context.store) } else { Ok(()) };
             context.keep_game(record, kept.and(ghost));
             place

@@ -91,9 +91,7 @@ impl Play {
     /// As for [`Play::start`].
     pub(super) fn food_chain(seed: u64, context: &AppContext) -> Result<Self, String> {
         let game = GameChoice { source: NAME.into(), overrides: Vec::new(), seed: Some(seed) };
-        let mut play = Self::new(game.round(seed)?, Paused::FoodChain(seed), context);
-        play.ghost = context.best_life.record().and_then(|record| Ghost::of(record, play.round.world()));
-        Ok(play)
+        Ok(Self::new(game.round(seed)?, Paused::FoodChain(seed), context))
     }
 
     /// Two cells on one slide.
@@ -124,6 +122,8 @@ impl Play {
             Paused::TwoPlayers(way) => way,
             _ => TwoPlayers::Versus,
         });
+        let best_life = context.best_life.record().filter(|_| round.chain().is_some() && !round.is_replay());
+        let ghost = best_life.and_then(|record| Ghost::of(record, world));
         let own = if is_of_lines { context.last_seat } else { 0 };
         let screen = context.pen.screen();
         let seen = chain_scene::seen(&round, Some(own)).unwrap_or(round.player());
@@ -145,7 +145,7 @@ impl Play {
             own,
             hands: Hands::default(),
             two,
-            ghost: None,
+            ghost,
             divide_key: context.settings.keys.label(Action::Divide),
         }
     }
