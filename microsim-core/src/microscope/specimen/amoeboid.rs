@@ -51,7 +51,7 @@ const THINNEST: f32 = 0.85;
 const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
-const BENDS: f32 = 0.35;
+const BENDS: f32 = 0.6;
 /// Noise from and to which chromatin is dense.
 const CHROMATIN: [f32; 2] = [-0.80, 0.55];
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.

@@ -1,4 +1,4 @@
-//! A large free amoeba: thicker, with coarser granules and one round nucleus.
+//! A large free amoeba: thicker, with coarser granules and one bent nucleus.
 
 use crate::look::{AmoeboidLook, GranuleLook, Lamella, Matter, NucleusLook, SpotShape, Texture, WAVE};
 
@@ -13,9 +13,9 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         radius: [0.31, 0.31],
         behind: 0.0,
         spread: 0.0,
-        bent: 0.05,
+        bent: 0.07,
         matter: Matter { phase: 0.18, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 0.85 },
-        texture: Texture { amount: 0.15, size: 0.9 },
+        texture: Texture { amount: 0.20, size: 0.75 },
         nucleoli: [1, 4],
     },
     granules: &[DENSER, THINNER, FINE, GRANULES, VACUOLES],

@@ -7,15 +7,17 @@ use microsim_core::{Kind, OrganismId, OrganismView, Role, World};
 
 /// Area of who bites over that of who is bitten, at least.
 const LEAST_RATIO: f32 = 1.5;
-/// By how much larger each thick coat makes a cell count among amoebae.
-const COAT: f32 = 1.5;
+/// How many times as large each thick coat makes a cell count among amoebae.
+const COAT: f32 = 2.0;
+/// What each thick coat leaves of the rate of bites.
+const COAT_RATE: f32 = 0.4;
 /// What each wide mouth leaves of that ratio, which never falls below 1.
 const MOUTH: f32 = 2.0 / 3.0;
 /// Gap between two outlines' nodes that counts as touching, units; nodes have radii from 0.5 to 0.8.
 const GAP: f32 = 1.8;
 /// Time for which they have to touch first, s.
 const HOLD: f32 = 0.4;
-/// Cytoplasm that a bite takes, particles/s; for each thick coat half as much.
+/// Cytoplasm that a bite takes, particles/s.
 const RATE: f32 = 8.0;
 /// Time for which a bite counts after it, s: cells lose touch for a moment when one is pushed away.
 const RECENT: f64 = 1.0;
@@ -53,7 +55,7 @@ impl Bites {
             let mut bite = known.copied().unwrap_or(Bite { by: by.id(), of: of.id(), held: 0.0, owed: 0.0 });
             bite.held += dt;
             if bite.held > HOLD {
-                bite.owed += RATE * 0.5_f32.powi(Change::Coat.count(of) as i32) * dt;
+                bite.owed += RATE * COAT_RATE.powi(Change::Coat.count(of) as i32) * dt;
             }
             while bite.owed >= 1.0 {
                 bite.owed -= 1.0;

@@ -66,7 +66,7 @@ impl Change {
         let (data, speed) = (view.user_data(), view.speed());
         let params = view.phagocytosis().copied();
         match (self, params) {
-            (Self::Speed, _) => world.set_speed(cell, 1.15 * speed),
+            (Self::Speed, _) => world.set_speed(cell, 1.12 * speed),
             (Self::StickyFront | Self::Stomach | Self::WideMouth, Some(params)) => {
                 world.set_phagocytosis(cell, self.of_eating(params))
             }
@@ -82,9 +82,9 @@ impl Change {
                 params.heading_cosine = (params.heading_cosine - 0.8).max(-1.0);
             }
             Self::Stomach => {
-                params.digestion_time = params.digestion_time.map(|time| (0.75 * time).max(0.05));
-                params.digestion_speed = 1.0 - 0.75 * (1.0 - params.digestion_speed);
-                params.growth_yield = (1.1 * params.growth_yield).min(4.0);
+                params.digestion_time = params.digestion_time.map(|time| (0.8 * time).max(0.05));
+                params.digestion_speed = 1.0 - 0.8 * (1.0 - params.digestion_speed);
+                params.growth_yield = (1.06 * params.growth_yield).min(4.0);
             }
             _ => params.size_ratio = (0.75 * params.size_ratio).max(1.0),
         }
@@ -130,7 +130,7 @@ mod tests {
         let view = world.view().organism(cell).unwrap();
         assert_eq!((line_of(view), changes(view)), (Some(3), 12));
         assert_eq!(Change::ALL.map(|change| change.count(view)), [2; 6]);
-        assert!((view.speed() - 1.3225 * AmoeboidCellSpec::default().speed).abs() < 1e-4);
+        assert!((view.speed() - 1.2544 * AmoeboidCellSpec::default().speed).abs() < 1e-4);
         let after = view.phagocytosis().unwrap();
         assert!((after.hold_time - 0.16 * before.hold_time).abs() < 1e-6 && after.size_ratio < 0.6 * before.size_ratio);
         (0..20).for_each(|_| Change::Coat.make(&mut world, cell).unwrap());

@@ -34,7 +34,7 @@ const LEAST: u32 = 12;
 /// What a cell of the first size uses up, particles/s; a larger one as much as the power 3/4 of its size says (Kleiber 1932).
 const HUNGER: f32 = 4.2;
 /// Time in which hunger grows by that of the beginning, s.
-const RAMP: f32 = 150.0;
+const RAMP: f32 = 220.0;
 /// Share of it for a sister, which rests.
 const RESTING: f32 = 0.3;
 /// Size from which a cell can be changed first; from twice as large on once more.
