@@ -6,11 +6,11 @@
 //!                                 \- Replay <-/
 //! ```
 
-pub mod advice;
 pub mod attempt;
 pub mod bot;
 pub mod brake;
 pub mod chain_bot;
+pub mod end_advice;
 pub mod flight;
 pub mod food_chain;
 pub mod ghost;

@@ -7,7 +7,7 @@ use super::scores::draw_table;
 use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::Input;
-use crate::rules::advice;
+use crate::rules::end_advice;
 use crate::rules::prey_class;
 use crate::rules::referee::KindScore;
 use crate::rules::round::RoundResult;
@@ -40,7 +40,7 @@ pub(super) struct End {
 impl End {
     /// The end of a round that was played, which is kept among the best, or replayed.
     pub(super) fn new(result: RoundResult, played: Paused, context: &mut AppContext) -> Self {
-        let missed = advice::missed(&result);
+        let missed = end_advice::missed(&result);
         let RoundResult { score: points, time, kinds, record, is_mismatch, .. } = result;
         let game = context.game_of(played).label();
         let count = |is_rigid: bool| {
@@ -58,7 +58,7 @@ impl End {
         let menu = EndMenu::new(&[Key::EndAgain, Key::EndWatch, Key::Title]);
         let heading = doubted(words::text_with(Key::EndPoints, &[("points", points.into())]), is_mismatch);
         let better = best.iter().map(|score| score.points).filter(|&other| other > points).min();
-        let goal = is_own.then(|| advice::next_goal(points, better));
+        let goal = is_own.then(|| end_advice::next_goal(points, better));
         Self { heading, points, kinds, best, place, missed, goal, menu, played }
     }
 
