@@ -122,7 +122,8 @@ impl Play {
             Paused::TwoPlayers(way) => way,
             _ => TwoPlayers::Versus,
         });
-        let best_life = context.best_life.record().filter(|_| round.chain().is_some() && !round.is_replay());
+        let has_ghost = platform::KEEPS_GHOSTS && round.chain().is_some() && !round.is_replay();
+        let best_life = if has_ghost { context.best_life.record() } else { None };
         let ghost = best_life.and_then(|record| Ghost::of(record, world));
         let own = if is_of_lines { context.last_seat } else { 0 };
         let screen = context.pen.screen();
