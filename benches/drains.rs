@@ -1,7 +1,7 @@
 //! Drains: what 10,000 particles cost that lie in one and are not for it, and what taking all of them at once costs.
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use microsim_benches::time_of_phase;
+use microsim_benches::{on_one_thread, time_of_phase};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AgarSpec, Drain, FluidBlockSpec, FluidParams, Inputs, Kind, Phase, Placement, Region, World, WorldConfig,
@@ -56,7 +56,7 @@ fn drains(criterion: &mut Criterion) {
             world.add_drain(Drain { region: Region::All, kind: None }).expect("the drain is valid");
             world
         };
-        let step = |world: &mut World| world.step(&Inputs::new());
+        let step = |world: &mut World| on_one_thread(|| world.step(&Inputs::new()));
         group.bench_function("step", |bencher| bencher.iter_batched_ref(|| world.clone(), step, BatchSize::LargeInput));
         group.bench_function("step that takes all", |bencher| {
             bencher.iter_batched_ref(with_drain, step, BatchSize::LargeInput);

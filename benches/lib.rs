@@ -2,6 +2,8 @@
 
 use microsim_core::scenario::{self, Scenario};
 use microsim_core::{Inputs, Phase, World};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 /// Steps before measuring starts: things have met by then.
@@ -85,14 +87,26 @@ pub fn time_of_phase(start: &World, steps: u64, phase: Phase) -> Duration {
     })
 }
 
-fn in_stretches(start: &World, steps: u64, mut timed: impl FnMut(&mut World) -> Duration) -> Duration {
-    let mut world = start.clone();
-    (0..steps).fold(Duration::ZERO, |sum, step| {
-        if step > 0 && step % STRETCH == 0 {
-            world = start.clone();
-        }
-        sum + timed(&mut world)
+fn in_stretches(start: &World, steps: u64, mut timed: impl FnMut(&mut World) -> Duration + Send) -> Duration {
+    on_one_thread(|| {
+        let mut world = start.clone();
+        (0..steps).fold(Duration::ZERO, |sum, step| {
+            if step > 0 && step % STRETCH == 0 {
+                world = start.clone();
+            }
+            sum + timed(&mut world)
+        })
     })
+}
+
+/// Does work on one thread, whatever the machine has: the core is built with threads.
+///
+/// # Panics
+/// When the system has no thread to give.
+pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    static POOL: LazyLock<ThreadPool> =
+        LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().expect("there is a thread"));
+    POOL.install(work)
 }
 
 /// The examples of the workspace's README, compiled and run with the tests.

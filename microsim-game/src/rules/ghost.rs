@@ -30,7 +30,7 @@ impl Ghost {
     /// Its cell, at a share of the way from the last step but one to the last; `None` when it is gone, or does not live as it did.
     #[must_use]
     pub fn cell(&self, alpha: f32) -> Option<OrganismView<'_>> {
-        let is_true = self.round.mismatch().is_none();
+        let is_true = self.round.mismatch().is_none() && !self.round.is_over();
         let view = is_true.then(|| self.round.world().view_since(&self.before, alpha))?;
         view.organism(self.round.player())
     }
@@ -66,6 +66,10 @@ mod tests {
             ghost.step();
             assert_eq!(ghost.cell(1.0).unwrap().centroid(), *place);
         }
+        ghost.step();
+        assert!(ghost.cell(1.0).is_none(), "it is over");
+        let mut ghost = Ghost::of(&record, round(3).world()).unwrap();
+        places.iter().for_each(|_| ghost.step());
         let between = ghost.cell(0.5).unwrap().centroid();
         assert!(between.distance(0.5 * (places[88] + places[89])) < 1e-3 && between != places[89]);
         assert_ne!(other.world().centroid(other.player()), Some(places[89]));
