@@ -17,6 +17,8 @@ use glam::Vec2;
 const FARTHEST: f32 = 3.0 * WorldConfig::MAX_SIZE;
 /// Largest speed over the speed limit: impacts may exceed the limit until the next substep.
 const TIMES_SPEED_LIMIT: f32 = 10.0;
+/// Inverse of the largest mass: of larger ones moments overflow.
+const LEAST_INV_MASS: f32 = 1e-20;
 /// Largest length of a link, radius of a node and rim of a membrane, units.
 const LONGEST: f32 = 1e5;
 /// Largest length of a membrane, in circles around its content.
@@ -56,7 +58,8 @@ fn check_particle(world: &World, i: usize) -> Check {
     let fastest = TIMES_SPEED_LIMIT * world.config.speed_limit();
     disc.must_range("velocity x", p.vx[i], -fastest, fastest)?;
     disc.must_range("velocity y", p.vy[i], -fastest, fastest)?;
-    disc.must_range("inverse mass", p.inv_mass[i], 0.0, f32::MAX)?;
+    let least = if p.inv_mass[i] == 0.0 { 0.0 } else { LEAST_INV_MASS };
+    disc.must_range("inverse mass", p.inv_mass[i], least, f32::MAX)?;
     disc.must_range("radius", p.radius[i], 0.0, LARGEST)?;
     disc.must_range("friction", p.material[i].friction, 0.0, 10.0)?;
     disc.must_range("restitution", p.material[i].restitution, 0.0, 1.0)

@@ -48,6 +48,7 @@ fn damage_to_the_store_is_found() {
     finds(|w| w.particles.origin_x[3] += 0.001, "must be a multiple of 0.00390625");
     finds(|w| w.particles.radius[2] = -1.0, "radius is -1");
     finds(|w| w.particles.inv_mass[2] = f32::NAN, "inverse mass");
+    finds(|w| w.particles.inv_mass[2] = 1e-38, "inverse mass");
     finds(|w| w.particles.role[2] = 200, "role 200");
     finds(|w| w.particles.fluid[2] = 9, "fluid 9");
     finds(|w| w.particles.x[2] -= 80.0, "outside the room");
