@@ -8,7 +8,6 @@ use crate::read;
 use crate::tally::Tally;
 use microsim_core::snapshot::Checkpoint;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -45,7 +44,7 @@ pub(crate) fn write(outputs: &Outputs, header: &CheckpointHeader, run: &Checkpoi
 /// The file of a line and a run.
 pub(crate) fn sealed(line: &[u8], run: &[u8]) -> Vec<u8> {
     let mut bytes = [line, b"\n", run].concat();
-    bytes.extend(Sha256::digest(&bytes));
+    bytes.extend(hmac_sha256::Hash::hash(&bytes));
     bytes
 }
 
@@ -85,7 +84,7 @@ fn parse(bytes: &[u8]) -> Result<(CheckpointHeader, Checkpoint), String> {
 /// The line and the run of a checkpoint whose checksum is right.
 fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (content, checksum) = bytes.split_at_checked(bytes.len().checked_sub(CHECKSUM)?)?;
-    if !content.starts_with(b"{") || Sha256::digest(content)[..] != *checksum {
+    if !content.starts_with(b"{") || hmac_sha256::Hash::hash(content)[..] != *checksum {
         return None;
     }
     let end = content.iter().position(|byte| *byte == b'\n')?;

@@ -4,7 +4,6 @@ use super::files::{self, Written};
 use super::pending::PendingFile;
 use crate::failure::Failure;
 use crate::read;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -204,7 +203,7 @@ impl Drop for Outputs {
 /// SHA-256 of a file, as `sha256sum` prints it.
 pub(crate) fn sha256(path: &Path) -> Result<String, Failure> {
     let fail = |error| Failure::file("read", path, &error);
-    let mut hasher = Sha256::new();
+    let mut hasher = hmac_sha256::Hash::new();
     let mut reader = BufReader::new(read::open(path).map_err(fail)?);
     loop {
         let bytes = reader.fill_buf().map_err(fail)?;

@@ -9,7 +9,6 @@ use crate::scenario_args::Changes;
 use crate::summary::rounded;
 use microsim_core::Measure;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// This program, as far as results depend on it.
@@ -67,7 +66,7 @@ impl Task {
     pub(crate) fn hash(&self) -> String {
         let Self { key: _, scenario, seed, set, steps, version, text } = self;
         let content = format!("microsim {version}\n{scenario:?} {seed} {set:?} {steps}\n{text}");
-        hex(&Sha256::digest(content.as_bytes())[..16])
+        hex(&hmac_sha256::Hash::hash(content.as_bytes())[..16])
     }
 
     /// Reads a line of a plan.
