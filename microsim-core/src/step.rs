@@ -185,7 +185,8 @@ fn steer(world: &mut World, inputs: &Inputs) {
 
 fn find_neighbours(world: &mut World) {
     let period = world.period();
-    let World { config, particles, fluids, scratch, .. } = world;
+    let World { config, particles, fluids, organisms, scratch, .. } = world;
+    scratch.fluid.scale(fluids.len(), organisms.fluid_scales());
     scratch.fluid.find_neighbours(fluids, particles, config.walls(), period);
 }
 

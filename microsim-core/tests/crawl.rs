@@ -47,6 +47,27 @@ fn every_type_crawls_to_its_goal_by_pseudopods_and_rests_round() {
 }
 
 #[test]
+fn a_crawling_cell_spreads_with_its_pseudopods_and_rounds_up_to_its_area_at_rest() {
+    for (crawl, variations) in [(Crawl::Neutrophil, 0.04..0.12), (Crawl::Keratocyte, 0.0..0.02)] {
+        let (mut world, id) = room_with(cell(crawl), 30.0, 45.0);
+        let area = |world: &World| microsim_core::geometry::signed_area(&common::outline(world, id));
+        let at_rest = area(&world);
+        run(&mut world, &toward(id, Vec2::new(1e4, 45.0)), 60);
+        let areas: Vec<f32> =
+            (0..400).map(|_| (run(&mut world, &toward(id, Vec2::new(1e4, 45.0)), 1), area(&world)).1).collect();
+        let mean = areas.iter().sum::<f32>() / areas.len() as f32;
+        let variance = areas.iter().map(|area| (area - mean).powi(2)).sum::<f32>() / areas.len() as f32;
+        let variation = variance.sqrt() / mean;
+        assert!(variations.contains(&variation), "{crawl:?}: {variation}");
+        assert!((mean / at_rest - 1.0).abs() < 0.1, "{crawl:?}: {mean} of {at_rest}");
+        let voids = world.membrane_quality(id).unwrap().voids;
+        assert!(voids < 0.05, "{crawl:?}: {voids}");
+        run(&mut world, &Inputs::new(), 300);
+        assert!((area(&world) / at_rest - 1.0).abs() < 0.03, "{crawl:?}: {} of {at_rest}", area(&world));
+    }
+}
+
+#[test]
 fn nothing_leaks_between_platelets_and_walls_whatever_the_goal() {
     for (crawl, seed) in TYPES.into_iter().zip(1..) {
         let (mut world, id) = room_with(cell(crawl), 20.0, 45.0);

@@ -161,6 +161,16 @@ impl Organism {
         Some(at_most(PI * radius * radius))
     }
 
+    /// How much farther apart its cytoplasm is than at rest: more where it has spread.
+    pub(crate) fn spread_length(&self) -> f32 {
+        self.locomotion.pseudopods().map_or(1.0, |pseudopods| pseudopods.spread.sqrt())
+    }
+
+    /// Distance of its particles of cytoplasm.
+    pub(crate) fn fluid_spacing(&self, fluids: &[Fluid]) -> Option<f32> {
+        Some(fluids[self.fluid? as usize].params.spacing * self.spread_length())
+    }
+
     /// Takes note of the command to digest; returns whether it may move.
     pub(crate) fn obey(&mut self, digests: bool) -> bool {
         let is_free = self.engulfer.as_mut().is_none_or(|engulfer| {
@@ -218,10 +228,10 @@ impl Organism {
             self.engulfer.as_ref().map_or((0.0, 0.0), |engulfer| (engulfer.held_area, engulfer.fold_length));
         let is_driven = self.crawls();
         let lobes = self.divider.as_ref().map_or(1.0, |divider| divider.lobes);
-        let (Storage::Loose { membrane: Some(membrane), .. }, Some(fluid)) = (&mut self.body, self.fluid) else {
+        let spacing = self.fluid_spacing(fluids);
+        let (Storage::Loose { membrane: Some(membrane), .. }, Some(spacing)) = (&mut self.body, spacing) else {
             return;
         };
-        let spacing = fluids[fluid as usize].params.spacing;
         let area = fluid::rest_area(self.fluid_particles.len(), spacing) + held_area;
         let content = MembraneContent { area, lobes, folds };
         let pseudopods = self.locomotion.pseudopods().filter(|pseudopods| pseudopods.protrudes());

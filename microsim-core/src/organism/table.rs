@@ -120,6 +120,11 @@ impl Organisms {
         }
     }
 
+    /// The fluids of those with a membrane, and how much farther apart their particles are than at rest.
+    pub(crate) fn fluid_scales(&self) -> impl Iterator<Item = (u32, f32)> {
+        self.with_membrane().filter_map(|(_, cell)| Some((cell.fluid?, cell.spread_length())))
+    }
+
     /// Those on which gravity acts otherwise.
     pub(crate) fn with_gravity_scale(&self) -> impl Iterator<Item = &Organism> {
         let all = self.scales_gravity.then(|| self.iter().map(|(_, organism)| organism));

@@ -35,7 +35,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Changes with every change of a type that is part of a world, except for a new kind of constraint at the end of the list.
-const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 11 };
+const WORLD: Format = Format { magic: *b"MSIMWRLD", version: 12 };
 
 /// Content of a snapshot of a world.
 type Content = (Vec<ObstacleRecord>, WorldState);

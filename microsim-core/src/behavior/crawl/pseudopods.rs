@@ -45,7 +45,7 @@ pub(crate) fn protrude(organism: &mut Organism, particles: &Particles, dt: f32, 
     let goal = organism.goal;
     let front = goal.and_then(|goal| crawl(organism, &mut pseudopods, goal, particles, dt, drives));
     if front.is_none() {
-        pseudopods.rest();
+        pseudopods.rest(dt);
     }
     pseudopods.front_centre = front;
     organism.locomotion = Locomotion::Protrude(pseudopods);

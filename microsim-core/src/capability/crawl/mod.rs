@@ -21,6 +21,11 @@ const TRIES: u32 = 8;
 const SOFTENING: f32 = 0.9;
 /// Time in which the direction of the push follows the pseudopods, s.
 const PUSH_TIME: f32 = 0.3;
+/// How much of what may be active is so in the mean while it crawls: it covers its area at rest then, and no gap is too narrow for it.
+const MEAN_ACTIVITY: f32 = 0.35;
+/// Time in which a cell spreads with its activity, in those in which it crawls its radius, and that in which it rounds up, s.
+const SPREADING_TIME: f32 = 0.2;
+const ROUNDING_TIME: f32 = 0.5;
 /// Share of the push that has to lead to the goal: below it the cell turns round, or begins.
 const TURNING: f32 = 0.1;
 /// Cosine to the goal below which a pseudopod is withdrawn while the cell turns round.
@@ -56,6 +61,8 @@ pub(crate) struct Pseudopods {
     pub last: Vec2,
     /// Side of the one before it on which it started: 1 left, -1 right.
     pub side: f32,
+    /// Area that it covers, in that at rest: it is as much thinner, since its volume stays.
+    pub spread: f32,
     /// Whether the membrane is as stiff as in the other crawl: while it holds on to prey.
     pub is_stiff: bool,
 }
@@ -70,6 +77,7 @@ impl Pseudopods {
             push: Vec2::ZERO,
             last: Vec2::ZERO,
             side: 1.0,
+            spread: 1.0,
             is_stiff: false,
         }
     }
@@ -77,11 +85,16 @@ impl Pseudopods {
     /// Whether its numbers are within their ranges, for an outline of so many nodes.
     pub(crate) fn is_sound(&self, nodes: usize) -> bool {
         let is_short = |v: Vec2| v.is_finite() && v.length_squared() <= 1.01;
-        self.network.is_sound(nodes) && is_short(self.push) && is_short(self.last) && self.side.abs() == 1.0
+        self.network.is_sound(nodes)
+            && is_short(self.push)
+            && is_short(self.last)
+            && self.side.abs() == 1.0
+            && (0.5..=2.0).contains(&self.spread)
     }
 
-    /// Comes to rest: what is extended is withdrawn.
-    pub(crate) fn rest(&mut self) {
+    /// Comes to rest in a step of `dt`: what is extended is withdrawn, and it rounds up.
+    pub(crate) fn rest(&mut self, dt: f32) {
+        self.spread_to(1.0, dt / ROUNDING_TIME);
         self.network.reset(self.network.len());
         (self.front_centre, self.push, self.last) = (None, Vec2::ZERO, Vec2::ZERO);
     }
@@ -117,6 +130,13 @@ impl Pseudopods {
         let active: Vec2 = outwards.iter().zip(self.network.activator()).map(|(&out, &a)| out * a).sum();
         let push = active.normalize_or_zero();
         self.push += (push - self.push) * (dt / (dt + PUSH_TIME));
+        let share = 1.0 - self.network.room(self.params.coverage);
+        self.spread_to(1.0 + self.params.spreading * (share - MEAN_ACTIVITY), tempo * dt / SPREADING_TIME);
+    }
+
+    /// Follows an area in a step that is this share of the time it takes.
+    fn spread_to(&mut self, area: f32, step: f32) {
+        self.spread += (area - self.spread) * (step / (1.0 + step));
     }
 
     /// Starts a pseudopod beside the last one or anywhere.
@@ -221,7 +241,7 @@ mod tests {
             for _ in 0..2000 {
                 pseudopods.advance(&posture);
                 places.extend(outwards.iter().position(|&out| out == pseudopods.last));
-                pseudopods.rest();
+                pseudopods.rest(0.0);
             }
             places
         };
@@ -232,6 +252,28 @@ mod tests {
         places.dedup();
         assert!(places.len() > 40, "{} nodes of {NODES}", places.len());
         assert_eq!(starts(0.0), []);
+    }
+
+    #[test]
+    fn a_cell_spreads_with_its_activity_and_rounds_up_at_rest() {
+        let outwards = outwards();
+        let params = PseudopodParams {
+            spreading: 0.8,
+            start_rate: 0.0,
+            life: 100.0,
+            coverage: 0.2,
+            ..PseudopodParams::default()
+        };
+        let mut pseudopods = crawling(params);
+        let posture = Posture { outwards: &outwards, direction: Vec2::X, tempo: 1.0, dt: 0.02 };
+        (0..20).for_each(|_| pseudopods.advance(&posture));
+        assert!(pseudopods.spread < 0.95, "nothing is active: {}", pseudopods.spread);
+        pseudopods.network.excite(0, 0.3);
+        let spreads: Vec<f32> = (0..25).map(|_| (pseudopods.advance(&posture), pseudopods.spread).1).collect();
+        assert!(spreads.is_sorted() && spreads[0] < 0.95 && spreads[24] > 1.3, "{spreads:?}");
+        (0..200).for_each(|_| pseudopods.rest(0.02));
+        assert!((pseudopods.spread - 1.0).abs() < 0.01 && pseudopods.is_sound(NODES), "{}", pseudopods.spread);
+        assert!(!Pseudopods { spread: 2.5, ..pseudopods }.is_sound(NODES));
     }
 
     #[test]

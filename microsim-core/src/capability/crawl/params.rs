@@ -32,6 +32,9 @@ pub struct PseudopodParams {
     pub stiffness: f32,
     /// Length that the membrane gains while it crawls, in perimeters at rest, 0 to 1.
     pub slack: f32,
+    /// How far the cell spreads, and becomes thinner, with the activity of its membrane: its area varies by this share between none and
+    /// as much as can be, 0 to 1.
+    pub spreading: f32,
 }
 
 impl Default for PseudopodParams {
@@ -70,5 +73,7 @@ impl PseudopodParams {
         visit(field("stiffness", words), Number(&mut self.stiffness, [0.01, 1.0]));
         let words = "Length that the membrane gains while it crawls, in perimeters at rest.";
         visit(field("slack", words), Number(&mut self.slack, [0.0, 1.0]));
+        let words = "Share by which the cell's area varies with the activity of its membrane.";
+        visit(field("spreading", words), Number(&mut self.spreading, [0.0, 1.0]));
     }
 }

@@ -53,6 +53,7 @@ impl PseudopodParams {
         tip_speed: 1.05,
         stiffness: 0.5,
         slack: 0.15,
+        spreading: 0.0,
         ..Self::NEUTROPHIL
     };
 
@@ -71,6 +72,7 @@ impl PseudopodParams {
         tip_speed: 3.0,
         stiffness: 0.15,
         slack: 0.33,
+        spreading: 1.0,
     };
 
     /// Dictyostelium discoideum: narrow pseudopods that split at some 60 degrees, mostly on alternating sides (Bosgraaf and

@@ -107,6 +107,8 @@ pub(crate) struct Fluid {
 #[derive(Debug)]
 pub(crate) struct Workspace {
     rest_density: f32,
+    /// Factor on the spacing of each fluid in this step.
+    scales: Vec<f32>,
     /// Of each fluid, found once per step.
     sorted: Vec<Sorted>,
     /// Of each portion of fluids.
@@ -125,7 +127,7 @@ struct Scratch {
 
 impl Default for Workspace {
     fn default() -> Self {
-        Self { rest_density: density::lattice_density(), sorted: Vec::new(), scratch: Vec::new() }
+        Self { rest_density: density::lattice_density(), scales: Vec::new(), sorted: Vec::new(), scratch: Vec::new() }
     }
 }
 
@@ -134,11 +136,12 @@ impl Fluid {
         Self { params, is_enclosed, particles: Vec::new() }
     }
 
-    /// Distance at which the kernel becomes 0.
-    fn support_radius(&self) -> f32 {
+    /// Distance at which the kernel becomes 0, where its spacing is `scale` times that at rest.
+    fn support_radius(&self, scale: f32) -> f32 {
+        let spacing = self.params.spacing * scale;
         match self.params.mode {
-            FluidMode::Density => SUPPORT * self.params.spacing,
-            FluidMode::Granular => self.params.spacing,
+            FluidMode::Density => SUPPORT * spacing,
+            FluidMode::Granular => spacing,
         }
     }
 
@@ -151,10 +154,10 @@ impl Fluid {
         }
     }
 
-    /// Mean of `max(0, rho / rho_0 - 1)` over the particles.
-    pub(crate) fn mean_compression(&self, particles: &Particles, period: Period) -> f32 {
+    /// Mean of `max(0, rho / rho_0 - 1)` over the particles, where their spacing is `scale` times that at rest.
+    pub(crate) fn mean_compression(&self, scale: f32, particles: &Particles, period: Period) -> f32 {
         let mut sorted = Sorted::default();
-        let support_radius = SUPPORT * self.params.spacing;
+        let support_radius = SUPPORT * self.params.spacing * scale;
         sorted.sort(&self.particles, particles, [Vec2::ZERO; 2], [support_radius, 0.0], period);
         let place = |i| Place { origin: particles.origin(i), offset: particles.offset(i), moved: Vec2::ZERO };
         sorted.read(place, support_radius);
@@ -171,6 +174,13 @@ impl Fluid {
 }
 
 impl Workspace {
+    /// Begins a step of so many fluids. Some have a spacing of their own: given are their indices, and factors on that at rest.
+    pub(crate) fn scale(&mut self, fluids: usize, scales: impl Iterator<Item = (u32, f32)>) {
+        self.scales.clear();
+        self.scales.resize(fluids, 1.0);
+        scales.for_each(|(fluid, scale)| self.scales[fluid as usize] = scale);
+    }
+
     /// Finds the neighbours of all particles for the step that begins, between walls of which these are the lower left and the upper
     /// right corner, in a room of this period.
     pub(crate) fn find_neighbours(
@@ -181,10 +191,12 @@ impl Workspace {
         period: Period,
     ) {
         self.sorted.resize_with(fluids.len(), Sorted::default);
-        let portions = fluids.chunks(FLUIDS).zip(self.sorted.chunks_mut(FLUIDS)).collect();
-        parallel::for_each(portions, |(fluids, sorted): (&[Fluid], &mut [Sorted])| {
-            for (fluid, sorted) in fluids.iter().zip(sorted) {
-                sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(), fluid.margin()], period);
+        self.scales.resize(fluids.len(), 1.0);
+        let portions =
+            fluids.chunks(FLUIDS).zip(self.scales.chunks(FLUIDS)).zip(self.sorted.chunks_mut(FLUIDS)).collect();
+        parallel::for_each(portions, |((fluids, scales), sorted): ((&[Fluid], &[f32]), &mut [Sorted])| {
+            for ((fluid, &scale), sorted) in fluids.iter().zip(scales).zip(sorted) {
+                sorted.sort(&fluid.particles, particles, walls, [fluid.support_radius(scale), fluid.margin()], period);
             }
         });
     }
@@ -192,23 +204,26 @@ impl Workspace {
     /// One iteration of all fluids' density constraints (or of their grains' contacts), and the viscosity of a substep of
     /// `h`. No particle is in two of them.
     pub(crate) fn project(&mut self, fluids: &[Fluid], particles: &mut Particles, h: f32, dispatch: Dispatch) {
-        let Self { rest_density, sorted, scratch } = self;
+        let Self { rest_density, scales, sorted, scratch } = self;
         scratch.resize_with(fluids.len().div_ceil(FLUIDS), Scratch::default);
-        let portions = fluids.chunks(FLUIDS).zip(sorted.chunks_mut(FLUIDS)).zip(scratch).collect();
+        let fluids = fluids.chunks(FLUIDS).zip(scales.chunks(FLUIDS));
+        let portions = fluids.zip(sorted.chunks_mut(FLUIDS)).zip(scratch).collect();
         #[expect(unsafe_code, reason = "fluids are disjoint, but their particles do not lie side by side")]
         // SAFETY: a fluid is in one portion, and no particle is in two fluids.
         let positions = unsafe { DisjointPositions::new(particles.position_cells()) };
-        parallel::for_each(portions, |((fluids, sorted), scratch): ((&[Fluid], &mut [Sorted]), &mut Scratch)| {
+        type Portion<'a> = (((&'a [Fluid], &'a [f32]), &'a mut [Sorted]), &'a mut Scratch);
+        parallel::for_each(portions, |(((fluids, scales), sorted), scratch): Portion<'_>| {
             let p = positions.cells();
             let place = |i| Place { origin: p.origin(i), offset: p.offset(i), moved: p.moved(i) };
-            for (fluid, sorted) in fluids.iter().zip(sorted) {
+            for ((fluid, &scale), sorted) in fluids.iter().zip(scales).zip(sorted) {
+                let support_radius = fluid.support_radius(scale);
                 // One after the other in the same memory, which is in the cache.
                 std::mem::swap(&mut sorted.neighbours, &mut scratch.neighbours);
-                sorted.read(place, fluid.support_radius());
+                sorted.read(place, support_radius);
                 find_shifts(fluid, sorted, scratch, [*rest_density, h], dispatch);
                 std::mem::swap(&mut sorted.neighbours, &mut scratch.neighbours);
                 sorted.hold_images();
-                sorted.shift(fluid.support_radius(), p);
+                sorted.shift(support_radius, p);
             }
         });
     }

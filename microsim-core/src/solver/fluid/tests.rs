@@ -41,9 +41,9 @@ fn are_near(a: [f64; 2], b: [f64; 2], distance: f64) -> bool {
 #[test]
 fn compressed_fluid_expands_to_its_rest_density_about_its_centre() {
     let (fluid, mut particles) = block(FluidMode::Density, 0.7);
-    let (before, start) = (fluid.mean_compression(&particles, Period::NONE), centre(&particles));
+    let (before, start) = (fluid.mean_compression(1.0, &particles, Period::NONE), centre(&particles));
     (0..60).for_each(|_| project(&fluid, &mut particles));
-    let after = fluid.mean_compression(&particles, Period::NONE);
+    let after = fluid.mean_compression(1.0, &particles, Period::NONE);
     assert!(before > 0.4 && after < 0.02, "compression {before} -> {after}");
     assert!(are_near(centre(&particles), start, 1e-3), "momentum");
 }
@@ -72,12 +72,32 @@ fn a_wall_pushes_like_the_mirror_image_of_the_fluid() {
 #[test]
 fn compression_is_the_same_at_any_spacing() {
     let (fluid, mut p) = block(FluidMode::Density, 0.8);
-    let compression = fluid.mean_compression(&p, Period::NONE);
+    let compression = fluid.mean_compression(1.0, &p, Period::NONE);
     let mut wide = Fluid::new(FluidParams { spacing: 2.0 * fluid.params.spacing, ..fluid.params }, false);
     wide.particles.clone_from(&fluid.particles);
     [&mut p.x, &mut p.y].into_iter().for_each(|places| places.iter_mut().for_each(|place| *place *= 2.0));
-    let twice = wide.mean_compression(&p, Period::NONE);
+    let twice = wide.mean_compression(1.0, &p, Period::NONE);
     assert!(compression > 0.1 && (twice - compression).abs() < 1e-3, "{compression}, {twice} at twice the spacing");
+}
+
+#[test]
+fn a_fluid_with_a_larger_spacing_for_a_step_spreads_and_comes_together_again() {
+    let (fluid, mut p) = block(FluidMode::Density, 1.0);
+    let mut workspace = Workspace::default();
+    let mut settle = |scale: f32, p: &mut Particles| {
+        let fluids = std::slice::from_ref(&fluid);
+        for _ in 0..60 {
+            (p.prev_x, p.prev_y) = (p.x.clone(), p.y.clone());
+            workspace.scale(1, [(0, scale)].into_iter());
+            workspace.find_neighbours(fluids, p, [Vec2::ZERO, Vec2::INFINITY], Period::NONE);
+            workspace.project(fluids, p, 1.0 / 480.0, Dispatch::default());
+        }
+        [scale, 1.0].map(|scale| fluid.mean_compression(scale, p, Period::NONE))
+    };
+    let [_, before] = settle(1.0, &mut p);
+    let [spread, at_rest] = settle(1.2, &mut p);
+    assert!(before < 0.02 && spread < 0.02 && at_rest == 0.0, "{before}, {spread} where it is spread, {at_rest}");
+    assert!(fluid.mean_compression(1.5, &p, Period::NONE) > 0.2, "no farther than that");
 }
 
 #[test]
@@ -186,7 +206,7 @@ fn neighbours_found_once_per_step_are_enough() {
             }
             let gap = |i: usize, j: usize| (particles.position(i) - particles.position(j)).length();
             let least = |i: usize| (0..200).filter(|&j| j != i).map(|j| gap(i, j)).fold(f32::INFINITY, f32::min);
-            (fluids[1].mean_compression(&particles, Period::NONE), (0..200).map(least).sum::<f32>() / 200.0)
+            (fluids[1].mean_compression(1.0, &particles, Period::NONE), (0..200).map(least).sum::<f32>() / 200.0)
         };
         let (once, each) = (after(1), after(8));
         assert!((once.0 - each.0).abs() < 0.005 && (once.1 - each.1).abs() < 0.005, "{mode:?}: {once:?} {each:?}");
@@ -221,7 +241,7 @@ fn a_block_across_a_periodic_side_is_projected_as_elsewhere() {
             let before: Vec<Vec2> = (0..p.len()).map(|i| p.offset(i)).collect();
             workspace.project(fluids, &mut p, 1.0 / 480.0, Dispatch::default());
             let moved: Vec<Vec2> = before.iter().enumerate().map(|(i, before)| p.offset(i) - *before).collect();
-            (moved, fluid.mean_compression(&p, period), fluid.mean_compression(&p, Period::NONE))
+            (moved, fluid.mean_compression(1.0, &p, period), fluid.mean_compression(1.0, &p, Period::NONE))
         };
         let ([here, there], compressed) = ([0.0, 22.0].map(|aside| moves(aside).0), moves(22.0));
         let largest = here.iter().map(|moved| moved.length()).fold(0.0, f32::max);

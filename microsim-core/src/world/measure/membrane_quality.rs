@@ -55,7 +55,7 @@ impl World {
     }
 
     pub(in crate::world) fn voids_of(&self, organism: &Organism) -> Option<f32> {
-        let spacing = self.fluids[organism.fluid? as usize].params.spacing;
+        let spacing = organism.fluid_spacing(&self.fluids)?;
         let thickness = organism.body.membrane()?.node_radius;
         let position = |i: u32| self.particles.position(i as usize);
         let mut coverage = Coverage::of(&self.outline_of(organism), spacing / SAMPLES)?;

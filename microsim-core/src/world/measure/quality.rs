@@ -183,10 +183,12 @@ impl World {
     }
 
     pub(in crate::world) fn fluid_compression_mean(&self) -> f32 {
-        let fluids = self.fluids.iter().filter(|fluid| !fluid.particles.is_empty());
-        let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), fluid| {
+        let mut scales = vec![1.0; self.fluids.len()];
+        self.organisms.fluid_scales().for_each(|(fluid, scale)| scales[fluid as usize] = scale);
+        let fluids = self.fluids.iter().zip(scales).filter(|(fluid, _)| !fluid.particles.is_empty());
+        let (sum, count) = fluids.fold((0.0, 0.0), |(sum, count), (fluid, scale)| {
             let share = fluid.particles.len() as f32;
-            (sum + fluid.mean_compression(&self.particles, self.period()) * share, count + share)
+            (sum + fluid.mean_compression(scale, &self.particles, self.period()) * share, count + share)
         });
         if count > 0.0 { sum / count } else { 0.0 }
     }

@@ -96,13 +96,14 @@ impl World {
         let (Some(_), Some(fluid)) = (organism.body.membrane(), organism.fluid) else {
             return Err(Error::unsupported("organism", "an organism with a membrane"));
         };
-        check_room(organism, &self.particles, self.fluids[fluid as usize].params.spacing, nodes, particles)?;
+        let spacing = self.fluids[fluid as usize].params.spacing * organism.spread_length();
+        check_room(organism, &self.particles, spacing, nodes, particles)?;
         self.scratch.occupancy.clear();
         for _ in 0..nodes {
             insert_node(organism, &mut self.particles);
         }
         let fluid = &mut self.fluids[fluid as usize];
-        let added = inject(organism, &held, particles, fluid.params.spacing, &mut self.particles);
+        let added = inject(organism, &held, particles, spacing, &mut self.particles);
         fluid.particles.extend(added);
         if nodes > 0 {
             self.widen_gates_for_cells(id);

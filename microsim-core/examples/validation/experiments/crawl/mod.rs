@@ -229,9 +229,7 @@ fn measure() -> Result<Outcome, Error> {
     }
     Ok(Outcome {
         rows,
-        cause: "cytoplasm is incompressible in the plane, so the area of an outline hardly varies; that of a real cell does, by \
-                its thickness, which this model does not have. A keratocyte is almost convex and hardly changes its shape in \
-                reality either.",
+        cause: "a keratocyte is almost convex and hardly changes its shape or its area in reality either.",
         ..Outcome::default()
     })
 }
