@@ -252,7 +252,10 @@ impl App {
             let size = if self.options.is_exact() { self.options.size } else { physical_size() };
             let taken = self.take(&path, size);
             self.context.tell(match taken {
-                Ok(()) => words::text_with(Key::FileWritten, &[("file", (&path.display().to_string()).into())]),
+                Ok(()) => {
+                    let path = path.canonicalize().unwrap_or(path);
+                    words::text_with(Key::FileWritten, &[("file", (&path.display().to_string()).into())])
+                }
                 Err(error) => words::of_file(Key::FileUnwritable, &path, &error),
             });
         } else if self.options.screenshot.is_none() {

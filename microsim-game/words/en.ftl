@@ -16,7 +16,8 @@ percent = { $number } %
 ## Title
 
 title-motto = a cell under the microscope
-title-goal = Food chain: { $what } { $done }/{ $least }
+title-new = New here? The first slides take a minute each.
+title-goal = Food chain: { $what }, { $done } of { $least }
 title-version = version { $version }
 title-play = Play
 title-slides = Slides
@@ -91,23 +92,24 @@ pause-photo = Photo
 hud-score = Score { $points }
 hud-places = Places { $counts }
 hud-digested = Digested { $counts }
-hud-lived = Lived { $time } s  size { $size }/{ $next }
+hud-lived = Lived { $time } s   Size { $size }, change at { $next }
 hud-second-life = second life: { $sisters }
 hud-bitten = Bitten: get away!
 hud-full = full
 hud-replay = Replay
 hud-replay-differs = Replay, not as it was played
 hint-finger = a finger on the picture
-hint-mouse = the left mouse button
+hint-mouse = the left mouse button or an arrow key
 hint-digest-button = Digest
 hint-digest = Hold { $key } to digest what you have taken in
 hint-task = { $task } Hold { $what } to crawl.
-hint-crawl = Hold { $what } to crawl. Push your front against food.
+hint-crawl = Hold { $what } to crawl.
+hint-eat = Push your front against food, and stay on it.
+hint-last = Only what is digested in time counts.
 hint-two-players = Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.
 hint-taken = A larger amoeba takes you in: you cannot move, and it digests you.
-hint-chain-crawl = Hold { $what } to crawl, and push your front against food.
 hint-chain-clock = The clock shows how long your food lasts: without more you starve.
-hint-chain-rivals = Rivals are coming, after your scent. A ring: you can eat it. A warning sign: it eats you.
+hint-chain-rivals = Rivals are coming, after your scent. A ring: you can eat it. A warning sign: it eats you. "=": neither.
 hint-chain-giant = Giants are coming, after your scent. Flee: rivals fit through the gaps, giants do not.
 hint-chain-ghost = The pale outline is your longest life in this water.
 hint-chain-divide = { $key } divides your cell: the sister is a second life.
@@ -130,17 +132,17 @@ end-rank = Number { $place } so far
 kind-agar = agar
 kind-cocci = cocci
 kind-rods = rods
-kind-rigid-cells = rigid cells
+kind-rigid-cells = ciliates
 missed-undigested = { $count ->
     [one] One thing inside was not digested: only what is digested counts.
    *[other] { $count } things inside were not digested: only what is digested counts.
 }
 missed-all = Nothing was taken in: crawl with your front against food, and stay on it.
-missed-rigid = No rigid cell: take one under a green arrow.
-missed-rigid-most = No rigid cell: they count most. Grow on small food, then take one under a green arrow.
+missed-rigid = You took in no ciliate: take one under a green arrow.
+missed-rigid-most = You took in no ciliate, and they count most. Grow on small food until a green arrow is over one.
 goal-better = Next: more than { $points }
 goal-first = Next: the first points
-goal-own-best = Next: more than your best, { $points }
+goal-own-best = Next: beat your best, { $points }
 
 ## High scores
 
@@ -149,18 +151,20 @@ scores-none = None yet. Play!
 scores-leave = Enter or a click: back
 scores-points = points
 scores-small = small
-scores-cells = cells
+scores-cells = large
+scores-others = Food chain: { $time } s   Slides: { $stars } of { $all } stars
 
 ## Slides
 
-slides-best = Best: { $time } s. { $fact } ({ $source })
+slides-best = Best: { $time } s, all stars. { $fact } ({ $source })
+slides-next = Best: { $time } s. One more star within { $next } s. { $task }
 slide-end-next = Next slide
 slide-end-again = Again
 slide-end-late = Time is up
 slide-end-taken = A larger amoeba took you in
 slide-end-done = Done in { $time } s
 slide-end-more = One more star within { $time } s
-slide-end-left = { $task } { $done }
+slide-end-left = { $task } So far: { $done }
 
 ## Food chain
 
@@ -172,24 +176,26 @@ chain-same = Same water
 chain-today-best = Everybody has this water today. You lived { $time } s in it. { $goal }
 chain-today-new = Everybody has this water today. { $goal }
 chain-water = Water { $seed }: the same for all who play this number.
-chain-done = Small food { $small }, cells { $cells }, bites { $bites }, changes of the body { $changes }
+chain-done = Small food { $small }, ciliates { $cells }, bites { $bites }, changes of the body { $changes }
 chain-goals = Goals reached: { $done } of { $all }
 chain-goals-new = New goals reached: { $new }, in all { $done } of { $all }
-chain-next = Next goal, in one life: { $what } { $done }/{ $least }
+chain-next = Next goal: { $what }, { $done } of { $least } in one life
+goals-title = Goals
+goals-most = best { $most }
 feat-changes = changes of the body
 feat-time = seconds alive
 feat-small = small food
-feat-cells = cells
+feat-cells = ciliates
 feat-divisions = divisions
 feat-bites = bites out of amoebae
 chain-wins = { $name } lived longest, { $best } s to { $others } s
 chain-draw = A draw, all lived { $points } s
 chain-draw-best = A draw of the best, { $points } s each
-chain-lived = Your line lived { $time } s
-chain-starved = It starved. Larger cells need more: go where small food is dense, and take cells under a green arrow.
-chain-starved-fact = An amoeba that finds no food rounds up into a cyst or dies; this one looked for food to the end.
-chain-eaten = A larger amoeba ate it. At a warning sign crawl away at once, through a gap; grown cells eat rivals.
-chain-eaten-alone = A larger amoeba ate it. Flee at a warning sign, and divide in time: a sister is a second life.
+chain-lived = You lived { $time } s
+chain-starved = You starved. Larger cells need more: go where small food is dense, and take ciliates under a green arrow.
+chain-starved-fact = An amoeba that finds no food rounds up into a cyst or dies; yours looked for food to the end.
+chain-eaten = A larger amoeba ate you. At a warning sign crawl away at once, through a gap; grown cells eat rivals.
+chain-eaten-alone = A larger amoeba ate you. Flee at a warning sign, and divide in time: a sister is a second life.
 chain-eaten-fact = Entamoeba histolytica kills living cells bite by bite: trogocytosis (Ralston and others, 2014, Nature 508).
 change-heading = You have grown: choose
 change-speed = Quick body
@@ -317,10 +323,10 @@ scene-empty = An empty room
 scene-game = The game
 scene-grow = A cell grows
 scene-hunt = A neutrophil hunts
-scene-leak-stress = Stress test: leaks
+scene-leak-stress = Does a cell leak?
 scene-platelets = A field of platelets
 scene-pond = A pond
-scene-ram-stress = Stress test: collisions
+scene-ram-stress = Rammed from all sides
 scene-squeeze = Through a narrow gap
 tool-steer = Steer
 tool-drag = Drag
@@ -341,7 +347,7 @@ panel-scenarios = Scenarios
 panel-menu = Menu
 spawn-coccus = coccus
 spawn-bacillus = bacillus
-spawn-rigid-cell = rigid cell
+spawn-rigid-cell = ciliate
 spawn-amoeboid = amoeboid
 spawn-platelet = platelet
 spawn-red-cell = red cell
@@ -385,9 +391,9 @@ sandbox-refused = Cannot be put here: { $what }
 
 photo-how = Drag or arrow keys: move. Wheel, { $out } or { $in }: zoom. { $optics }: optics. { $picture }: save a picture. Escape: back.
 waiting = The microscope is being set up ...
-quality-lowered = Pictures are slow. Quality is { $quality } now; see the settings.
+quality-lowered = Quality is { $quality } now, so that the picture moves smoothly (Settings).
 quality-drawn = that of the drawn view
-file-written = wrote { $file }
+file-written = Saved as { $file }
 file-unwritable = cannot write { $file }: { $error }
 file-unreadable = cannot read { $file }: { $error }
 file-not-text = it is no text in UTF-8
@@ -413,14 +419,14 @@ settings-unkept = cannot keep the settings: { $error }
 
 ## Ways of looking
 
-sight-bright-field = bright-field
+sight-bright-field = bright field
 sight-classic = classic
-sight-dark-field = dark-field
-sight-dic = dic
+sight-dark-field = dark field
+sight-dic = DIC
 sight-drawn = drawn
 sight-fluorescence = fluorescence
-sight-negative-phase-contrast = negative-phase-contrast
-sight-phase-contrast = phase-contrast
+sight-negative-phase-contrast = negative phase contrast
+sight-phase-contrast = phase contrast
 sight-stained = stained
 
 ## The page around the game: what its own files say, for other languages

@@ -92,12 +92,19 @@ fn dense_cell(view: OrganismView<'_>, tint: Tint, items: &mut Vec<Item>) {
     items.push(membrane(surface, tint, 1.0, thickness));
 }
 
+/// Depth of a cap, in the distance from the front to the centroid.
+const CAP_DEPTH: f32 = 0.35;
+
 /// A faint crescent behind the front.
 fn cap(view: OrganismView<'_>, tint: Tint, surface: &[Vec2]) -> Option<Item> {
     let (front, count) = (view.front_index()?, surface.len());
     let half = (count / 8).max(1);
-    let around = (front + count - half..=front + count + half).map(|k| surface[k % count]);
-    Some(Item::filled(DrawnPart::Cap, Geometry::Curve(around.collect()), Paint::Flat(tint.detail.faded(0.32))))
+    let around: Vec<Vec2> = (front + count - half..=front + count + half).map(|k| surface[k % count]).collect();
+    let (centre, last) = (view.centroid(), (around.len() - 1) as f32);
+    let depth = |k: usize| 4.0 * CAP_DEPTH * (k as f32 / last) * (1.0 - k as f32 / last);
+    let inwards = (1..around.len() - 1).rev().map(|k| around[k].lerp(centre, depth(k)));
+    let crescent = around.iter().copied().chain(inwards).collect();
+    Some(Item::filled(DrawnPart::Cap, Geometry::Curve(crescent), Paint::Flat(tint.detail.faded(0.32))))
 }
 
 /// A soft disc, pale in the middle, with a spot.

@@ -79,17 +79,17 @@ static BUILTINS: [Builtin; 16] = [
     },
     Builtin {
         name: "hunt",
-        summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s, best seen with `render`",
+        summary: "a neutrophil hunts cocci among red blood cells: the film of the 1950s",
         text: include_str!("../../scenarios/hunt.toml"),
     },
     Builtin {
         name: "pond",
-        summary: "paramecia and an amoeba in their real size, for `render`",
+        summary: "paramecia and an amoeba in their real size",
         text: include_str!("../../scenarios/pond.toml"),
     },
     Builtin {
         name: "crawl",
-        summary: "four types of amoeba crawl by pseudopods in an open field, best seen with `render`",
+        summary: "four types of amoeba crawl by pseudopods in an open field",
         text: include_str!("../../scenarios/crawl.toml"),
     },
 ];

@@ -37,6 +37,18 @@ pub fn draw_others(pen: &mut Pen, style: &Style<'_>, [threats, victims]: &[Vec<O
     }
 }
 
+/// Writes a sign of equality over each amoeba that can neither bite nor be bitten.
+pub fn draw_equals(pen: &mut Pen, style: &Style<'_>, equals: &[Other]) {
+    let unit = pen.line(TextSize::Body);
+    for equal in equals {
+        let (at, radius) = place(style, equal);
+        if is_seen(pen, at, radius) {
+            let top = Vec2::new(at.x, (at.y - radius - 0.7 * unit).max(2.6 * unit));
+            pen.label(top, TextSize::Body, Align::Centre, HALO, "=");
+        }
+    }
+}
+
 fn place(style: &Style<'_>, other: &Other) -> (Vec2, f32) {
     (style.camera.to_screen(other.at), other.half_extent * style.camera.scale())
 }

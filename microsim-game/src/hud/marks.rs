@@ -12,6 +12,10 @@ use microsim_core::glam::Vec2;
 
 /// Height that is kept free for the status line and a mark's own label below it, lines of text.
 const BELOW_STATUS: f32 = 4.6;
+/// How many of the nearest cells that are too large have a number at their bar.
+const NUMBERS: usize = 2;
+/// Points that are written large.
+const MANY_POINTS: u32 = 100;
 /// Time for which points are shown, s.
 const GAIN_TIME: f32 = 1.6;
 
@@ -45,11 +49,12 @@ impl MarkLayout {
     }
 }
 
-/// Arrows over rigid cells (T69, T75): a full one where the cell can be taken in now, a hollow one with the share of the
-/// size that the player has, a barred one where there is no room.
+/// Arrows over rigid cells (T69, T75), the nearest first: a full one where the cell can be taken in now, a hollow one with the share
+/// of the size that the player has, a barred one where there is no room.
 pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, targets: &[PreyTarget]) {
     let unit = pen.line(TextSize::Body);
     let half = Vec2::new(1.2, 1.25) * unit;
+    let mut numbers = 0;
     for target in targets {
         let readiness = match target.readiness {
             Readiness::NoRoom if style.is_classic => Readiness::Ready,
@@ -65,20 +70,26 @@ pub fn draw_targets(pen: &mut Pen, style: &Style<'_>, taken: &mut MarkLayout, ta
             Readiness::Ready if is_seen => arrow(pen, tip + Vec2::new(0.0, bob), Vec2::Y, unit, READY),
             Readiness::Ready => draw_at_edge(pen, at, unit, READY),
             _ if !is_seen => {}
-            Readiness::TooLarge(share) => draw_too_large(pen, tip, unit, share),
+            Readiness::TooLarge(share) => {
+                numbers += 1;
+                draw_too_large(pen, tip, unit, (share, numbers <= NUMBERS));
+            }
             Readiness::NoRoom => draw_no_room(pen, tip, unit),
         }
     }
 }
 
 /// A hollow arrow that is filled as far as the player has grown.
-fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, share: f32) {
+fn draw_too_large(pen: &mut Pen, tip: Vec2, unit: f32, (share, has_number): (f32, bool)) {
     let (low, high) = (tip - Vec2::new(0.32 * unit, 1.0 * unit), tip + Vec2::new(0.32 * unit, -0.2 * unit));
     let (outer, inner) = (Vec2::splat(0.12 * unit), Vec2::splat(0.02 * unit));
     pen.canvas().rectangle(low - outer, high + outer, fade(INK, 0.75));
     pen.canvas().rectangle(low - inner, high + inner, fade(HALO, 0.35));
     let filled = Vec2::new(low.x, high.y - (high.y - low.y) * share);
     pen.canvas().rectangle(filled, high, WAIT);
+    if !has_number {
+        return;
+    }
     let percent = format!("{:.0} %", (100.0 * share).floor());
     pen.label(tip - Vec2::new(0.0, 1.75 * unit), TextSize::Small, Align::Centre, HALO, &percent);
 }
@@ -198,10 +209,11 @@ impl Gains {
             // None rises out of the picture.
             let mut place = style.camera.to_screen(gain.at) - Vec2::new(0.0, unit);
             place.y = place.y.max(3.0 * unit);
-            let place = taken.place(place, Vec2::new(1.4, 0.63) * unit);
+            let size = if gain.points >= MANY_POINTS { TextSize::Large } else { TextSize::Body };
+            let place = taken.place(place, Vec2::new(1.4, 0.63) * pen.line(size));
             let rise = style.time.map_or(0.0, |_| 2.0 * unit * age / GAIN_TIME);
             let at = place - Vec2::new(0.0, rise);
-            pen.label(at, TextSize::Body, Align::Centre, READY, &format!("+{}", gain.points));
+            pen.label(at, size, Align::Centre, READY, &format!("+{}", gain.points));
         }
     }
 }
@@ -244,6 +256,22 @@ mod tests {
         assert_eq!(arrows(Readiness::TooLarge(0.5), seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the thesis");
+    }
+
+    #[test]
+    fn only_the_nearest_cells_that_are_too_large_have_numbers() {
+        let corners = |count| {
+            let targets: Vec<PreyTarget> = (0..count)
+                .map(|k| PreyTarget {
+                    at: Vec2::new(20.0 + 25.0 * k as f32, 45.0),
+                    ..target(0.0, Readiness::TooLarge(0.5))
+                })
+                .collect();
+            drawn_targets(&targets, false).canvas().corners().count()
+        };
+        let [one, two, three, four] = [1, 2, 3, 4].map(corners);
+        assert_eq!(two, 2 * one);
+        assert!(three - two < two - one && four - three == three - two, "{one} {two} {three} {four}");
     }
 
     #[test]

@@ -16,6 +16,9 @@ use microsim_core::glam::Vec2;
 /// Time at the end in which the clock stands out, s.
 const LAST_SECONDS: f32 = 10.0;
 
+/// Time at the end in which seconds are counted in the middle, s.
+const COUNTED_SECONDS: f32 = 5.0;
+
 /// What the status line says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Status<'a> {
@@ -46,6 +49,10 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));
+    if (0.0..=COUNTED_SECONDS).contains(&left) && left > 0.0 && whole > COUNTED_SECONDS {
+        let at = Vec2::new(0.5 * screen.x, middle + 1.6 * line);
+        pen.label(at, TextSize::Huge, Align::Centre, ALERT, &(left.ceil() as u32).to_string());
+    }
     if !status.note.is_empty() {
         let beside = pen.width(size, status.score).max(pen.width(TextSize::Large, &clock(left))) + line;
         let width = pen.width(TextSize::Body, status.note);

@@ -78,11 +78,17 @@ pub fn draw_food(pen: &mut Pen, style: &Style<'_>, view: View<'_>) {
 }
 
 fn draw_frame(pen: &mut Pen, low: Vec2, high: Vec2, width: f32, alpha: f32) {
-    let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
     for (width, colour) in [(2.2 * width, INK), (width, if alpha < 1.0 { HALO } else { READY })] {
-        for k in 0..corners.len() {
-            pen.canvas().segment(corners[k], corners[(k + 1) % corners.len()], width, fade(colour, alpha));
-        }
+        let (half, colour) = (0.5 * width, fade(colour, alpha));
+        let (outer, inner) = ([low - half, high + half], [low + half, high - half]);
+        // The sides stand between the upper and the lower edge, so that corners are whole and nothing is painted twice.
+        let sides = [
+            [outer[0], Vec2::new(outer[1].x, inner[0].y)],
+            [Vec2::new(outer[0].x, inner[1].y), outer[1]],
+            [Vec2::new(outer[0].x, inner[0].y), Vec2::new(inner[0].x, inner[1].y)],
+            [Vec2::new(inner[1].x, inner[0].y), Vec2::new(outer[1].x, inner[1].y)],
+        ];
+        sides.into_iter().for_each(|[from, to]| pen.canvas().rectangle(from, to, colour));
     }
 }
 

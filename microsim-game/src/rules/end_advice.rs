@@ -64,7 +64,7 @@ mod tests {
         assert!(said(1, 0, 0).starts_with("One thing inside"));
         assert!(said(3, 5, 1).starts_with("3 things inside"));
         assert!(said(0, 0, 0).starts_with("Nothing was taken in"));
-        assert!(said(0, 5, 0).starts_with("No rigid cell"));
+        assert!(said(0, 5, 0).starts_with("You took in no ciliate"));
         assert_eq!(missed(&result(0, 5, 1)), None);
         let no_rigid = RoundResult { kinds: result(0, 5, 0).kinds[..1].to_vec(), ..result(0, 5, 0) };
         assert_eq!(missed(&no_rigid), None, "this game has none");
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn the_next_goal_is_the_score_above() {
         assert_eq!(next_goal(30, Some(50)), "Next: more than 50");
-        assert_eq!(next_goal(50, None), "Next: more than your best, 50");
+        assert_eq!(next_goal(50, None), "Next: beat your best, 50");
         assert_eq!(next_goal(0, None), "Next: the first points");
     }
 }

@@ -8,14 +8,47 @@ const TIME: f32 = 6.0;
 /// What a mark is called here, and its explanation.
 const LESSONS: [Key; 3] = [Key::LessonReady, Key::LessonTooLarge, Key::LessonNoRoom];
 
-/// What was explained so far, and what is being explained.
+/// Time for which a newcomer has to crawl until it is clear that they can, s.
+const CRAWLED: f32 = 1.0;
+
+/// What a player has to do first, one after the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FirstDeed {
+    /// To crawl.
+    Crawl,
+    /// To take something in.
+    Eat,
+}
+
+/// What was explained so far, and what is being explained; and what the player has done.
 #[derive(Clone, Debug, Default)]
 pub struct Lessons {
     is_told: [bool; LESSONS.len()],
     shown: Option<(usize, f32)>,
+    /// Time for which the player has crawled, s.
+    crawled: f32,
+    has_eaten: bool,
 }
 
 impl Lessons {
+    /// Notes what the player does in a frame of this length, s.
+    pub fn note(&mut self, crawls: bool, eats: bool, elapsed: f32) {
+        if crawls {
+            self.crawled += elapsed;
+        }
+        self.has_eaten |= eats;
+    }
+
+    /// What the player has not done yet: that is explained until it is done.
+    #[must_use]
+    pub fn first_deed(&self) -> Option<FirstDeed> {
+        match (self.has_eaten, self.crawled < CRAWLED) {
+            (true, _) => None,
+            (false, true) => Some(FirstDeed::Crawl),
+            (false, false) => Some(FirstDeed::Eat),
+        }
+    }
+
     /// What to tell now, at a time of the program, s: nothing begins while something else is told in its place.
     pub fn pass(&mut self, hints: &Hints, time: f32, is_free: bool) -> Option<Key> {
         self.shown = self.shown.filter(|(_, until)| time < *until);
@@ -57,6 +90,20 @@ mod tests {
         assert_eq!(lessons.pass(&both, 13.2, true), None);
         assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 14.0, true), Some(LESSONS[0]));
         assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 30.0, true), None);
+    }
+
+    #[test]
+    fn what_comes_first_is_explained_until_it_is_done() {
+        let mut lessons = Lessons::default();
+        let mut after = |crawls, eats, elapsed| {
+            lessons.note(crawls, eats, elapsed);
+            lessons.first_deed()
+        };
+        assert_eq!(after(false, false, 60.0), Some(FirstDeed::Crawl), "not after a time");
+        assert_eq!(after(true, false, 0.5), Some(FirstDeed::Crawl));
+        assert_eq!(after(true, false, 0.6), Some(FirstDeed::Eat));
+        assert_eq!(after(false, true, 0.1), None);
+        assert_eq!(after(true, false, 9.0), None);
     }
 
     #[test]

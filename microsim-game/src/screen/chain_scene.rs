@@ -1,10 +1,11 @@
 //! What a round of the food chain shows, alone or in a match.
 
-use super::steer::held_to_crawl;
+use super::steer::first_advice;
 use crate::hud::food_chain;
 use crate::hud::marks::Style;
 use crate::rules::food_chain::change::line_of;
-use crate::rules::food_chain::{FoodChain, threats_and_victims};
+use crate::rules::food_chain::{FoodChain, equals, threats_and_victims};
+use crate::rules::lesson::FirstDeed;
 use crate::rules::round::Round;
 use crate::rules::threat::engulfers;
 use crate::ui::pen::Pen;
@@ -19,19 +20,19 @@ const RIVALS: f64 = 65.0;
 const GIANTS: f64 = 100.0;
 const WARNING: f64 = 5.0;
 
-/// What is new is explained when it is there first, and what is dangerous before. `divide` is what is written on the key that divides.
-pub(super) fn advice(time: f64, divide: &str, has_buttons: bool) -> Option<String> {
+/// What a newcomer has to do first is explained until it is done; else what is new when it is there first, and what is dangerous before.
+/// `divide` is what is written on the key that divides.
+pub(super) fn advice(time: f64, first: Option<FirstDeed>, divide: &str, has_buttons: bool) -> Option<String> {
     let divide = if has_buttons { words::text(Key::HintChainButton) } else { divide };
-    let what = held_to_crawl(has_buttons);
     let of = |key| words::text(key).to_owned();
     let parts = [
-        (0.0, words::text_with(Key::HintChainCrawl, &[("what", what.into())])),
         (6.0, of(Key::HintChainClock)),
         (25.0, words::text_with(Key::HintChainDivide, &[("key", divide.into())])),
         (RIVALS - WARNING, of(Key::HintChainRivals)),
         (GIANTS - WARNING, of(Key::HintChainGiant)),
     ];
-    parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text)
+    let of_time = parts.into_iter().find(|(from, _)| (*from..from + 6.0).contains(&time)).map(|(_, text)| text);
+    first.map(|deed| first_advice(deed, has_buttons)).or(of_time)
 }
 
 /// What a ghost is, after what the game is.
@@ -71,6 +72,7 @@ pub(super) fn draw(
         return;
     };
     food_chain::draw_others(pen, style, &threats_and_victims(view, cell));
+    food_chain::draw_equals(pen, style, &equals(view, cell));
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
     if is_played && chain.is_bitten(cell) {
@@ -114,7 +116,7 @@ mod tests {
             from.fold(f64::MAX, f64::min)
         };
         for (of, hint) in [("of = \"rival\"", Key::HintChainRivals), ("of = \"giant\"", Key::HintChainGiant)] {
-            let told = |before: f64| advice(first(of) - before, "X", false);
+            let told = |before: f64| advice(first(of) - before, None, "X", false);
             assert_eq!(told(3.0).as_deref(), Some(words::text(hint)), "{of}");
             assert_eq!(told(8.0), None);
         }
@@ -123,14 +125,14 @@ mod tests {
     #[test]
     fn a_ghost_is_explained_while_nothing_else_is() {
         let times: Vec<f64> = (0..600).map(f64::from).filter(|time| ghost_advice(*time).is_some()).collect();
-        assert!(times.len() == 6 && times.iter().all(|time| advice(*time, "X", false).is_none()), "{times:?}");
+        assert!(times.len() == 6 && times.iter().all(|time| advice(*time, None, "X", false).is_none()), "{times:?}");
     }
 
     #[test]
     fn the_status_tells_from_which_size_on_the_body_changes() {
         let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
         let (told, _) = status(&round, round.player()).unwrap();
-        assert!(told.starts_with("Lived 0 s  size 1.0/1.5"), "{told}");
+        assert!(told.starts_with("Lived 0 s   Size 1.0, change at 1.5"), "{told}");
     }
 
     #[test]

@@ -209,7 +209,7 @@ impl Contest {
             Some(own) if key == Key::MatchWatch && time < ADVICE_TIME => Some(player_advice(own, self.slide.as_ref())),
             Some(_) if key == Key::MatchWatch => round
                 .chain()
-                .and_then(|_| chain_scene::advice(time, &self.divide_key, platform::covered_height() > 0.0)),
+                .and_then(|_| chain_scene::advice(time, None, &self.divide_key, platform::covered_height() > 0.0)),
             _ => Some(words::text(key).to_owned()),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::context::AppContext;
 use super::page::MenuPage;
-use super::{MainScreen, Next, Screen, new_seed};
+use super::{MainScreen, Next, Overlay, Screen, new_seed};
 use crate::input::Input;
 use crate::rules::food_chain::NAME;
 use crate::rules::food_chain::feats::Feats;
@@ -27,7 +27,7 @@ pub(super) struct FoodChainMenu {
 
 impl FoodChainMenu {
     pub(super) fn new(context: &AppContext) -> Self {
-        let items = [Key::ChainToday, Key::ChainOther, Key::Back].map(MenuItem::new);
+        let items = [Key::ChainToday, Key::ChainOther, Key::GoalsTitle, Key::Back].map(MenuItem::new);
         let best = context.scores.of(NAME, LONGEST).next();
         let best = best.map(|score| score.points);
         let records = &context.chain_records;
@@ -44,8 +44,11 @@ impl Screen for FoodChainMenu {
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        let seed = |item| if item == 0 { todays_seed(context) } else { new_seed(context) };
-        self.page.choose(input, &context.pen, |item| Next::Show(MainScreen::FoodChain(seed(item))))
+        self.page.choose(input, &context.pen, |item| match item {
+            0 => Next::Show(MainScreen::FoodChain(todays_seed(context))),
+            1 => Next::Show(MainScreen::FoodChain(new_seed(context))),
+            _ => Next::Open(Overlay::Goals),
+        })
     }
 
     fn draw(&mut self, context: &mut AppContext) {

@@ -95,9 +95,9 @@ fn told_of(life: &Life, [before, now]: [Feats; 2]) -> Vec<Paragraph> {
     let [done, all] = now.goals();
     let new = done - before.goals()[0];
     let counts = [("new", (new as u32).into()), ("done", (done as u32).into()), ("all", (all as u32).into())];
-    let key = if new > 0 { Key::ChainGoalsNew } else { Key::ChainGoals };
-    told.push((TextSize::Body, READY, words::text_with(key, &counts), 2));
-    told.extend(now.next_goal(Key::ChainNext).map(|goal| (TextSize::Body, READY, goal, 0)));
+    let (key, colour) = if new > 0 { (Key::ChainGoalsNew, READY) } else { (Key::ChainGoals, HALO) };
+    told.push((TextSize::Body, colour, words::text_with(key, &counts), 2));
+    told.extend(now.next_goal(Key::ChainNext).map(|goal| (TextSize::Body, HALO, goal, 0)));
     told
 }
 
@@ -138,8 +138,10 @@ impl Screen for FoodChainEnd {
         let pen = &mut context.pen;
         draw_shade(pen);
         let layout = MenuLayout::middle(pen, MENU_TOP);
-        for (y, size, colour, line) in lines_of(pen, &self.told, layout.corner.y).0 {
-            pen.write(Vec2::new(0.5 * pen.screen().x, y), size, Align::Centre, colour, &line);
+        let (lines, end) = lines_of(pen, &self.told, layout.corner.y);
+        let down = 0.4 * (layout.corner.y - end).max(0.0);
+        for (y, size, colour, line) in lines {
+            pen.write(Vec2::new(0.5 * pen.screen().x, y + down), size, Align::Centre, colour, &line);
         }
         self.menu.menu.draw(pen, &layout);
     }

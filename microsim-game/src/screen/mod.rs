@@ -12,6 +12,7 @@ mod end_menu;
 mod follow;
 mod food_chain;
 mod food_chain_end;
+mod goals;
 mod guide;
 mod join;
 mod keys_menu;
@@ -159,6 +160,8 @@ pub enum Overlay {
     Guide,
     /// An article of the field guide.
     Article(&'static Entry),
+    /// The goals of the food chain.
+    Goals,
     /// High scores.
     Scores,
     /// Settings.

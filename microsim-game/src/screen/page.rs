@@ -19,7 +19,7 @@ const NOTE_WIDTH: f32 = 0.9;
 /// Height of an item that has room for a picture, lines.
 const TALL: f32 = 2.6;
 /// How dark what lies below gets.
-const SHADE: f32 = 0.76;
+const SHADE: f32 = 0.83;
 
 /// A heading and a menu.
 #[derive(Debug)]

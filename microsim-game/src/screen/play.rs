@@ -4,7 +4,7 @@ use super::chain_scene;
 use super::context::AppContext;
 use super::done::DoneNote;
 use super::follow::Follow;
-use super::steer::{Hands, draw_prey, held_to_crawl, targets_of};
+use super::steer::{Hands, draw_prey, first_advice, held_to_crawl, targets_of};
 use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
 use crate::game_choice::GameChoice;
@@ -18,6 +18,7 @@ use crate::rules::bot::Bot;
 use crate::rules::food_chain::NAME;
 use crate::rules::ghost::Ghost;
 use crate::rules::hint::{Hints, taken_in};
+use crate::rules::lesson::FirstDeed;
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides;
@@ -32,8 +33,12 @@ use microsim_core::{OrganismId, View};
 /// Time for which the player is told the task of a slide, and what to do, s.
 const TASK_TIME: f64 = 9.0;
 /// How strong the tint of a chemical is at most.
-const SCENT: f32 = 0.6;
+const SCENT: f32 = 0.4;
+/// Entries of the guide that whoever crawls has seen.
+const OWN_BODY: [&str; 3] = ["amoeboid-cell", "membrane", "pseudopod"];
 const ADVICE_TIME: f64 = 7.0;
+/// Time at the end in which it is said that only what is digested counts, s.
+const LAST_TIME: f32 = 8.0;
 /// A ghost is given up when a step takes longer than this with it, ms.
 const GHOST_STEP: f32 = 10.0;
 
@@ -161,7 +166,7 @@ impl Play {
         let goals = self.hands.goals(input, &self.viewer.camera, &self.round, self.two);
         let digests = context.settings.digests(input);
         let Self { round, viewer, gains, pulses, heard, hands, bot, ghost, .. } = self;
-        let mut digested = Vec::new();
+        let (mut digested, mut has_eaten) = (Vec::new(), false);
         heard.clear();
         viewer.run(context.pace, context.settings.pace(), round, |round| {
             let mut intents = hands.intents(round, goals, digests);
@@ -173,7 +178,10 @@ impl Play {
             heard.extend(round.heard());
             gains.add(round.gains());
             let cells: Vec<OrganismId> = round.players().collect();
-            taken_in(round.world(), &cells).for_each(|at| pulses.take(at));
+            taken_in(round.world(), &cells).for_each(|at| {
+                pulses.take(at);
+                has_eaten = true;
+            });
             digested.extend(round.gains().map(|gain| gain.kind));
             round.world()
         });
@@ -187,6 +195,13 @@ impl Play {
         for (k, (_, chemical)) in self.round.world().view().chemicals().enumerate() {
             self.fullest.resize(self.fullest.len().max(k + 1), 0.0);
             self.fullest[k] = self.fullest[k].max(tint::fullest(chemical));
+        }
+        if !self.round.is_replay() {
+            let before = context.lessons.first_deed();
+            context.lessons.note(goals[0].is_some(), has_eaten, context.pace.elapsed);
+            if before == Some(FirstDeed::Crawl) && context.lessons.first_deed() != before {
+                OWN_BODY.into_iter().for_each(|name| context.find(name));
+            }
         }
         let names = digested.into_iter().filter_map(|kind| Some(guide::of_kind(kind)?.name));
         names.for_each(|name| context.find(name));
@@ -255,13 +270,18 @@ impl Play {
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note });
     }
 
-    fn advice(&self, hints: &Hints, key: Option<&str>, has_buttons: bool) -> Option<String> {
-        let time = self.round.world().time();
+    fn advice(
+        &self,
+        hints: &Hints,
+        first: Option<FirstDeed>,
+        (key, has_buttons): (Option<&str>, bool),
+    ) -> Option<String> {
+        let (time, left) = (self.round.world().time(), self.round.referee().time_left());
         if self.round.is_replay() {
             None
         } else if self.round.chain().is_some() {
             let of_ghost = || self.ghost.as_ref().and_then(|_| chain_scene::ghost_advice(time));
-            chain_scene::advice(time, &self.divide_key, has_buttons).or_else(of_ghost)
+            chain_scene::advice(time, first, &self.divide_key, has_buttons).or_else(of_ghost)
         } else if let Some(task) = &self.task {
             let how = held_to_crawl(has_buttons);
             let alone = || words::text_with(Key::HintTask, &[("task", task.into()), ("what", how.into())]);
@@ -271,11 +291,10 @@ impl Play {
             Some(words::text_with(Key::HintDigest, &[("key", key.into())]))
         } else if time < ADVICE_TIME && matches!(self.two, Some(TwoPlayers::Versus | TwoPlayers::Together)) {
             Some(words::text(Key::HintTwoPlayers).to_owned())
-        } else if time < ADVICE_TIME {
-            let what = held_to_crawl(has_buttons);
-            Some(words::text_with(Key::HintCrawl, &[("what", what.into())]))
+        } else if left < LAST_TIME && hints.can_digest() {
+            Some(words::text(Key::HintLast).to_owned())
         } else {
-            None
+            first.map(|deed| first_advice(deed, has_buttons))
         }
     }
 }
@@ -346,7 +365,7 @@ impl Screen for Play {
         let advice = if is_taken {
             Some(words::text(Key::HintTaken).to_owned())
         } else {
-            self.advice(&hints, key.as_deref(), covered > 0.0)
+            self.advice(&hints, context.lessons.first_deed(), (key.as_deref(), covered > 0.0))
         };
         let lesson = context.lessons.pass(&hints, context.time, advice.is_none());
         let advice = advice.or_else(|| lesson.map(|lesson| words::text(lesson).to_owned()));

@@ -5,11 +5,15 @@ use super::page::draw_heading;
 use super::{Next, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};
+use crate::slides::SLIDES;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
+
+/// Most stars for a slide.
+const MOST_STARS: u32 = 3;
 
 /// The list of high scores of the game.
 #[derive(Debug)]
@@ -17,13 +21,20 @@ pub(super) struct ScoreList {
     /// Name of the game, and its time, s.
     game: [String; 2],
     scores: Vec<Score>,
+    /// What was reached beside the game.
+    others: String,
 }
 
 impl ScoreList {
     pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
         let named = [context.game.source.to_string(), words::number(time, 0)];
-        Self { game: named, scores: context.scores.of(&game, time).cloned().collect() }
+        let slides = SLIDES.iter().filter_map(|slide| Some(context.best_times.stars(slide.name, &slide.told()?)));
+        let (longest, stars) = (context.chain_records.best.time, slides.sum::<u32>());
+        let args =
+            [("time", longest.into()), ("stars", stars.into()), ("all", (MOST_STARS * SLIDES.len() as u32).into())];
+        let others = words::text_with(Key::ScoresOthers, &args);
+        Self { game: named, scores: context.scores.of(&game, time).cloned().collect(), others }
     }
 }
 
@@ -41,7 +52,9 @@ impl Screen for ScoreList {
         if self.scores.is_empty() {
             pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, words::text(Key::ScoresNone));
         }
-        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], 0.9 * screen.y, &self.scores, None);
+        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], 0.85 * screen.y, &self.scores, None);
+        let at = Vec2::new(0.5 * screen.x, screen.y - 2.2 * line);
+        pen.write(at, TextSize::Body, Align::Centre, HALO, &self.others);
         let at = Vec2::new(0.5 * screen.x, screen.y - line);
         pen.write(at, TextSize::Small, Align::Centre, HALO, words::text(Key::ScoresLeave));
     }

@@ -7,6 +7,7 @@ use crate::input::{Input, Move};
 use crate::slides::SLIDES;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{self, Key};
+use microsim_core::scenario::Slide;
 
 #[derive(Debug)]
 pub(super) struct SlideList {
@@ -21,13 +22,7 @@ impl SlideList {
         let (items, notes): (Vec<MenuItem>, Vec<String>) = slides
             .map(|(name, slide)| {
                 let best = context.best_times.of(name);
-                let found = |time| {
-                    let time = words::number(time, 1);
-                    let args =
-                        [("time", (&time).into()), ("fact", (&slide.fact).into()), ("source", (&slide.source).into())];
-                    words::text_with(Key::SlidesBest, &args)
-                };
-                let note = best.map_or_else(|| slide.task.clone(), found);
+                let note = best.map_or_else(|| slide.task.clone(), |time| note_of(&slide, time));
                 (MenuItem::rated(slide.title.clone(), context.best_times.stars(name, &slide)), note)
             })
             .unzip();
@@ -64,6 +59,18 @@ impl Screen for SlideList {
     }
 }
 
+/// What is said of a slide that was done in this time, s: the task, and the time of the next star; if there is none, its fact.
+fn note_of(slide: &Slide, time: f32) -> String {
+    let best = words::number(time, 1);
+    let Some(longest) = slide.stars.iter().rev().find(|longest| time > **longest) else {
+        let args = [("time", (&best).into()), ("fact", (&slide.fact).into()), ("source", (&slide.source).into())];
+        return words::text_with(Key::SlidesBest, &args);
+    };
+    let next = words::number(*longest, 0);
+    let args = [("time", (&best).into()), ("next", (&next).into()), ("task", (&slide.task).into())];
+    words::text_with(Key::SlidesNext, &args)
+}
+
 /// The first slide without a star, or the first one when all have some.
 fn first_left(items: &[MenuItem]) -> usize {
     items.iter().position(|item| item.stars == Some(0)).unwrap_or(0)
@@ -72,6 +79,18 @@ fn first_left(items: &[MenuItem]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_slide_that_is_done_tells_its_task_and_the_next_star_and_with_all_stars_its_fact() {
+        let slide = crate::slides::find("first-steps").unwrap().read().unwrap();
+        let [three, two] = slide.stars;
+        let late = note_of(&slide, two + 1.0);
+        assert!(late.contains(&slide.task) && late.contains(&format!("{two:.0} s")), "{late}");
+        let next = note_of(&slide, three + 0.5);
+        assert!(next.contains(&slide.task) && next.contains(&format!("{three:.0} s")), "{next}");
+        let all = note_of(&slide, three);
+        assert!(all.contains(&slide.fact) && !all.contains(&slide.task), "{all}");
+    }
 
     #[test]
     fn the_list_opens_where_the_player_is() {

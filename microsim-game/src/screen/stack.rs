@@ -7,6 +7,7 @@ use super::context::AppContext;
 use super::end::End;
 use super::food_chain::FoodChainMenu;
 use super::food_chain_end::FoodChainEnd;
+use super::goals::Goals;
 use super::guide::Guide;
 use super::join::Join;
 use super::keys_menu::KeysMenu;
@@ -157,6 +158,7 @@ fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
         Overlay::Pick => Box::new(Pick::new(context)),
         Overlay::Guide => Box::new(Guide::new(context)),
         Overlay::Article(entry) => Box::new(ArticlePage::new(entry)),
+        Overlay::Goals => Box::new(Goals::new(context)),
         Overlay::Scores => Box::new(ScoreList::new(context)),
         Overlay::Settings => Box::new(SettingsMenu::new(context)),
         Overlay::Keys => Box::new(KeysMenu::new(context)),

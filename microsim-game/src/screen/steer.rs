@@ -5,12 +5,13 @@ use crate::hud::marks;
 use crate::input::Input;
 use crate::rules::brake::Brake;
 use crate::rules::hint::{Hints, PreyTarget};
+use crate::rules::lesson::FirstDeed;
 use crate::rules::round::Round;
 use crate::rules::two_players::TwoPlayers;
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
-use microsim_core::{Intent, OrganismId, View};
+use microsim_core::{Intent, OrganismId, OrganismView, View};
 
 /// Distance of the goal to which arrow keys steer, units: speed does not depend on it.
 const STEERED: f32 = 30.0;
@@ -81,7 +82,15 @@ pub(super) fn held_to_crawl(has_buttons: bool) -> &'static str {
     if has_buttons { words::text(Key::HintFinger) } else { words::text(Key::HintMouse) }
 }
 
-/// Targets of one who plays, but for those to which another one is nearer: each is marked once.
+/// How to do what a newcomer has to do first.
+pub(super) fn first_advice(deed: FirstDeed, has_buttons: bool) -> String {
+    match deed {
+        FirstDeed::Crawl => words::text_with(Key::HintCrawl, &[("what", held_to_crawl(has_buttons).into())]),
+        FirstDeed::Eat => words::text(Key::HintEat).to_owned(),
+    }
+}
+
+/// Targets of one who plays, the nearest first, but for those to which another one is nearer: each is marked once.
 pub(super) fn targets_of(round: &Round, view: View<'_>, player: OrganismId, hints: &Hints) -> Vec<PreyTarget> {
     let distance = |id, at| view.organism(id).map(|cell| cell.centroid().distance(at));
     let is_own = |target: &&PreyTarget| {
@@ -90,7 +99,11 @@ pub(super) fn targets_of(round: &Round, view: View<'_>, player: OrganismId, hint
             .filter_map(|other| distance(other, target.at))
             .all(|other| distance(player, target.at).is_some_and(|own| own <= other))
     };
-    hints.targets.iter().filter(is_own).copied().collect()
+    let mut targets: Vec<PreyTarget> = hints.targets.iter().filter(is_own).copied().collect();
+    if let Some(at) = view.organism(player).map(OrganismView::centroid) {
+        targets.sort_by(|a, b| a.at.distance_squared(at).total_cmp(&b.at.distance_squared(at)));
+    }
+    targets
 }
 
 /// Marks what a player holds and could take in.

@@ -27,8 +27,8 @@ pub(super) struct Title {
     backdrop: Option<Backdrop>,
     menu: Menu,
     targets: Vec<(Key, Target)>,
-    /// The next goal of the food chain, for one who has played it.
-    goal: Option<String>,
+    /// What is said below the title: the next goal of the food chain to one who has played it, where to begin to a newcomer.
+    note: Option<String>,
 }
 
 #[derive(Debug)]
@@ -66,7 +66,9 @@ impl Title {
         let items = targets.iter().map(|&(label, _)| MenuItem::new(label)).collect();
         let best = context.chain_records.best;
         let goal = best.next_goal(Key::TitleGoal).filter(|_| best != Feats::default());
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets, goal }
+        let is_new = context.best_times.is_empty() && context.scores.is_empty();
+        let note = goal.or_else(|| is_new.then(|| words::text(Key::TitleNew).to_owned()));
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets, note }
     }
 }
 
@@ -140,8 +142,8 @@ impl Screen for Title {
         pen.write(Vec2::new(left, title), TextSize::Huge, Align::Left, HALO, TITLE);
         if layout.corner.y >= end {
             let motto = Vec2::new(left + 0.05 * line, below);
-            match &self.goal {
-                Some(goal) => pen.label(motto, TextSize::Body, Align::Left, HALO, goal),
+            match &self.note {
+                Some(note) => pen.label(motto, TextSize::Body, Align::Left, HALO, note),
                 None => {
                     let colour = fade(HALO, 0.85);
                     pen.write(motto, TextSize::Body, Align::Left, colour, words::text(Key::TitleMotto));

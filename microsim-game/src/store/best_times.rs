@@ -46,6 +46,12 @@ impl BestTimes {
         is_best
     }
 
+    /// Whether no slide was done yet.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The best time for a slide, s.
     #[must_use]
     pub fn of(&self, slide: &str) -> Option<f32> {

@@ -13,6 +13,8 @@ const NOTCHES: [(f32, f32); 5] = [(0.588, -0.809), (0.951, 0.309), (0.0, 1.0), (
 const DEPTH: f32 = 0.42;
 /// How strong a star is that is still to be got.
 const FAINT: f32 = 0.35;
+/// How large it is.
+const OPEN: f32 = 0.7;
 
 /// Width of three stars of this radius.
 #[must_use]
@@ -20,11 +22,11 @@ pub fn stars_width(radius: f32) -> f32 {
     STARS as f32 * 2.3 * radius
 }
 
-/// Draws three stars around a point, of which so many are full and the others small and faint.
+/// Draws three stars around a point, of which so many are full and the others smaller and faint.
 pub fn draw_stars(pen: &mut Pen, middle: Vec2, radius: f32, stars: u32, colour: Color) {
     for k in 0..STARS {
         let at = middle + Vec2::new((k as f32 - 1.0) * 2.3 * radius, 0.0);
-        let (radius, colour) = if k < stars { (radius, colour) } else { (0.45 * radius, fade(colour, FAINT)) };
+        let (radius, colour) = if k < stars { (radius, colour) } else { (OPEN * radius, fade(colour, FAINT)) };
         draw_star(pen, at, radius, colour);
     }
 }
@@ -56,7 +58,7 @@ mod tests {
                 .sum::<f32>()
         };
         let areas = [0, 1, 2, 3].map(area);
-        assert!(areas.windows(2).all(|pair| pair[1] > 1.3 * pair[0]), "{areas:?}");
+        assert!(areas.windows(2).all(|pair| pair[1] > 1.15 * pair[0]), "{areas:?}");
     }
 
     #[test]

@@ -47,6 +47,11 @@ impl Feats {
         }
     }
 
+    /// All goals: what each measure is called, how much of it there is, and how much each of its goals asks for.
+    pub fn measures(self) -> impl Iterator<Item = (Key, u32, &'static [u32])> {
+        MEASURES.iter().map(move |(what, of, wanted)| (*what, of(&self), *wanted))
+    }
+
     /// How many goals are reached, and how many there are.
     #[must_use]
     pub fn goals(&self) -> [usize; 2] {
@@ -78,9 +83,9 @@ mod tests {
     #[test]
     fn the_nearest_goal_is_named_with_what_is_there_of_it() {
         let next = |feats: Feats| feats.next_goal(Key::ChainNext).unwrap();
-        assert_eq!(next(Feats::default()), "Next goal, in one life: changes of the body 0/1");
+        assert_eq!(next(Feats::default()), "Next goal: changes of the body, 0 of 1 in one life");
         let some = Feats { changes: 1, time: 67, small: 9, ..Feats::default() };
-        assert_eq!(next(some), "Next goal, in one life: seconds alive 67/120");
+        assert_eq!(next(some), "Next goal: seconds alive, 67 of 120 in one life");
         assert_eq!((Feats::default().goals(), some.goals()), ([0, 20], [2, 20]));
         let all = Feats { time: 600, changes: 8, small: 100, cells: 15, bites: 100, divisions: 3 };
         assert_eq!((all.next_goal(Key::ChainNext), all.goals()), (None, [20, 20]));

@@ -269,5 +269,16 @@ pub fn threats_and_victims(view: View<'_>, player: OrganismId) -> [Vec<Other>; 2
     found
 }
 
+/// The amoebae of no line or another one that can neither bite a cell nor be bitten by it.
+#[must_use]
+pub fn equals(view: View<'_>, player: OrganismId) -> Vec<Other> {
+    let Some(cell) = view.organism(player) else { return Vec::new() };
+    let is_equal = |other: &OrganismView<'_>| {
+        let is_other = other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell);
+        is_other && !can_bite(*other, cell) && !can_bite(cell, *other)
+    };
+    view.organisms().filter(is_equal).map(|other| Other::seen(other, cell)).collect()
+}
+
 #[cfg(test)]
 mod tests;

@@ -154,8 +154,16 @@ impl Sandbox {
         self.plots.push(self.viewer.step_ms(), area);
     }
 
+    /// How many bodies and particles there are.
+    fn counts(&self) -> [String; 2] {
+        let census = self.stage.census();
+        let counts = [(Key::SandboxBodies, census.bodies), (Key::SandboxParticles, census.particles)];
+        counts.map(|(key, count)| words::text_with(key, &[("count", (count as u32).into())]))
+    }
+
+    /// Name and time, and with the debug view what there is and how long a step takes.
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
-        let (time, census) = (self.stage.world().time() as f32, self.stage.census());
+        let time = self.stage.world().time() as f32;
         let mut parts = vec![self.stage.name().to_owned(), format!("{} s", words::number(time, 2))];
         if self.is_paused {
             parts.push(words::text(Key::SandboxPaused).to_owned());
@@ -163,10 +171,9 @@ impl Sandbox {
         if SPEEDS[self.speed] != 1.0 {
             parts.push(speed_label(self.speed));
         }
-        let counts = [(Key::SandboxBodies, census.bodies), (Key::SandboxParticles, census.particles)];
-        parts.extend(counts.map(|(key, count)| words::text_with(key, &[("count", (count as u32).into())])));
-        if !is_exact {
-            parts.push(step_label(self.viewer.step_ms()));
+        if self.shows.anatomy {
+            parts.extend(self.counts());
+            parts.extend((!is_exact).then(|| step_label(self.viewer.step_ms())));
         }
         let line = pen.line(TextSize::Small);
         let width = pen.screen().x - 0.8 * line;
