@@ -48,6 +48,7 @@ settings-sound = Zvuk
 settings-arrows = Původní šipky
 settings-full-screen = Celá obrazovka
 settings-keys = Klávesy
+settings-name = Jméno
 settings-quality-about = Kolik práce dá obraz. Automatická: tolik, kolik tento počítač zvládne.
 settings-motion-about = Zapnuto: nic se nehýbe ani nebliká jen pro ozdobu.
 settings-digestion-about = Zapnuto: co je uvnitř, se tráví jen při držení klávesy.
@@ -117,8 +118,9 @@ hint-chain-ghost = Bledý obrys je tvůj nejdelší život v této vodě.
 hint-chain-divide = { $key }: buňka se rozdělí a sestra je druhý život.
 hint-chain-button = Tlačítko
 lesson-ready = Zelená šipka: na pohlcení této buňky už máš dost velké tělo.
-lesson-too-large = Proužek nad buňkou ukazuje, kolik z potřebné velikosti máš. Po drobné potravě vyrosteš.
+lesson-too-large = Nálevníci se počítají nejvíc. Políčko nad nimi se plní, jak rosteš: po drobné potravě vyrosteš.
 lesson-no-room = Nápis "plno": uvnitř je místo jen pro jednu takovou buňku. Nejdřív ji stráv.
+lesson-optics = { $key } mění optiku: stejné buňky v každé vypadají jinak.
 
 ## Konce
 
@@ -267,6 +269,7 @@ two-draw-best = { $points ->
 
 join-how = Napiš kód místnosti: 4 až 12 písmen a číslic. Enter vstoupí, Escape se vrátí.
 join-who = Dva až čtyři hráči se stejným kódem jsou ve stejné místnosti.
+name-how = Napiš jméno do nejlepších výsledků: nejvýš 12 písmen a číslic. Enter uloží, Escape zpět.
 
 ## Hráči
 

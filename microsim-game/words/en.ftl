@@ -46,6 +46,7 @@ settings-sound = Sound
 settings-arrows = Classic arrows
 settings-full-screen = Full screen
 settings-keys = Keys
+settings-name = Name
 settings-quality-about = How much work goes into the picture. Automatic: as much as this machine can do.
 settings-motion-about = On: nothing moves or blinks for decoration.
 settings-digestion-about = On: what is inside is digested only while a key is held.
@@ -115,8 +116,9 @@ hint-chain-ghost = The pale outline is your longest life in this water.
 hint-chain-divide = { $key } divides your cell: the sister is a second life.
 hint-chain-button = The button
 lesson-ready = A green arrow: you are large enough to take this cell in.
-lesson-too-large = The bar over a cell says how much of the needed size you have. Small food makes you grow.
+lesson-too-large = Ciliates count most. The box over one fills as you grow for it: small food makes you grow.
 lesson-no-room = "full": only one such cell has room inside. Digest it first.
+lesson-optics = { $key } changes the optics: the same cells look different in each.
 
 ## Ends
 
@@ -255,6 +257,7 @@ two-draw-best = { $points ->
 
 join-how = Type the code of a room: 4 to 12 letters and digits. Enter goes there, Escape back.
 join-who = Two to four who type the same code are in the same room.
+name-how = Type your name for the high scores: up to 12 letters and digits. Enter keeps it, Escape goes back.
 
 ## Players
 

@@ -1,7 +1,7 @@
 //! The end of a round: the score by kind, its place among the best, what was missed, and the next goal.
 
 use super::context::AppContext;
-use super::end_menu::{EndMenu, doubted, rank};
+use super::end_menu::{EndMenu, doubted, rank, signature};
 use super::page::draw_shade;
 use super::scores::draw_table;
 use super::{MainScreen, Next, Paused, Screen};
@@ -47,7 +47,8 @@ impl End {
             let of_kind = kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
             of_kind.map(|(_, entry)| entry.count).sum()
         };
-        let score = Score { game: game.clone(), time, points, small: count(false), rigid: count(true) };
+        let (name, day) = signature(context);
+        let score = Score { game: game.clone(), time, points, small: count(false), rigid: count(true), name, day };
         let (mut place, mut best, is_own) = (None, Vec::new(), record.is_some());
         if let Some(record) = record {
             let (found, kept) = context.scores.add(score, &context.store);

@@ -1,11 +1,15 @@
 //! The menu at an end: it opens under a hand that may still be steering, and waits until that has let go.
 
 use super::context::AppContext;
+use super::join::LONGEST;
 use super::{MainScreen, Next};
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
 use crate::words::{self, Key};
+use macroquad::miniquad;
 
+/// Length of a day, s.
+const DAY: f64 = 86400.0;
 /// Time for which the menu does not answer, s.
 const DELAY: f32 = 0.7;
 
@@ -81,6 +85,12 @@ pub(super) fn rank(place: usize) -> String {
     } else {
         words::text_with(Key::EndRank, &[("place", (place as u32 + 1).into())])
     }
+}
+
+/// Who played, and on which day since 1970; none in pictures that must come out the same.
+pub(super) fn signature(context: &AppContext) -> (String, u32) {
+    let day = if context.pace.is_exact { 0 } else { (miniquad::date::now() / DAY) as u32 };
+    (context.settings.name.chars().take(LONGEST).collect(), day)
 }
 
 /// A heading, and a doubt about a replay that went otherwise.

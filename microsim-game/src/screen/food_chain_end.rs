@@ -2,7 +2,7 @@
 //! whose line lived longest.
 
 use super::context::AppContext;
-use super::end_menu::{EndMenu, doubted, rank};
+use super::end_menu::{EndMenu, doubted, rank, signature};
 use super::food_chain::{LONGEST, todays_seed};
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen, new_seed};
@@ -46,7 +46,9 @@ impl FoodChainEnd {
         let feats = life.feats;
         let game = if let Paused::FoodChain(_) = played { NAME.to_owned() } else { context.game_of(played).label() };
         let is_plain = matches!(played, Paused::FoodChain(_)) || context.game_of(played).is_plain();
-        let score = Score { game, time: LONGEST, points: feats.time, small: feats.small, rigid: feats.cells };
+        let (name, day) = signature(context);
+        let score =
+            Score { game, time: LONGEST, points: feats.time, small: feats.small, rigid: feats.cells, name, day };
         let before = context.chain_records.best;
         let place = result.record.map(|record| {
             let (place, kept) = context.scores.add(score, &context.store);

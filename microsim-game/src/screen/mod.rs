@@ -17,6 +17,7 @@ mod guide;
 mod join;
 mod keys_menu;
 mod lobby;
+mod name;
 mod offer;
 mod page;
 mod pause;
@@ -168,6 +169,8 @@ pub enum Overlay {
     Settings,
     /// Which key does what.
     Keys,
+    /// What the player is called.
+    Name,
 }
 
 /// What the pause menu stops.

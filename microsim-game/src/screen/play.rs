@@ -4,7 +4,7 @@ use super::chain_scene;
 use super::context::AppContext;
 use super::done::DoneNote;
 use super::follow::Follow;
-use super::steer::{Hands, draw_prey, first_advice, held_to_crawl, targets_of};
+use super::steer::{Hands, draw_prey, first_advice, held_to_crawl, optics_advice, targets_of};
 use super::{Next, Overlay, Paused, Screen, new_seed};
 use crate::draw::palette::ALERT;
 use crate::game_choice::GameChoice;
@@ -67,8 +67,9 @@ pub(super) struct Play {
     bot: Option<Bot>,
     /// The player's best life in this water.
     ghost: Option<Ghost>,
-    /// What is written on the key that divides the cell.
+    /// What is written on the keys that divide the cell and change the optics.
     divide_key: String,
+    optics_key: String,
 }
 
 impl Play {
@@ -153,6 +154,7 @@ impl Play {
             two,
             ghost,
             divide_key: context.settings.keys.label(Action::Divide),
+            optics_key: context.settings.keys.label(Action::Optics),
         }
     }
 
@@ -294,7 +296,8 @@ impl Play {
         } else if left < LAST_TIME && hints.can_digest() {
             Some(words::text(Key::HintLast).to_owned())
         } else {
-            first.map(|deed| first_advice(deed, has_buttons))
+            let of_optics = || (!has_buttons).then(|| optics_advice(time, &self.optics_key)).flatten();
+            first.map(|deed| first_advice(deed, has_buttons)).or_else(of_optics)
         }
     }
 }

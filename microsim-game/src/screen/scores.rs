@@ -1,6 +1,7 @@
 //! High scores.
 
 use super::context::AppContext;
+use super::join::LONGEST;
 use super::page::draw_heading;
 use super::{Next, Screen};
 use crate::draw::palette::{HALO, READY};
@@ -52,7 +53,14 @@ impl Screen for ScoreList {
         if self.scores.is_empty() {
             pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, words::text(Key::ScoresNone));
         }
-        draw_table(pen, [0.5 * screen.x, 0.27 * screen.y], 0.85 * screen.y, &self.scores, None);
+        let (middle, top) = (0.5 * screen.x, 0.27 * screen.y);
+        let shown = draw_table(pen, [middle, top], 0.85 * screen.y, &self.scores, None);
+        for (k, score) in self.scores.iter().take(shown).enumerate() {
+            let y = top + line * (k + 1) as f32;
+            let name: String = score.name.chars().take(LONGEST).collect();
+            pen.write(Vec2::new(middle - 5.8 * line, y), TextSize::Small, Align::Right, HALO, &name);
+            pen.write(Vec2::new(middle + 5.3 * line, y), TextSize::Small, Align::Left, HALO, &score.date());
+        }
         let at = Vec2::new(0.5 * screen.x, screen.y - 2.2 * line);
         pen.write(at, TextSize::Body, Align::Centre, HALO, &self.others);
         let at = Vec2::new(0.5 * screen.x, screen.y - line);
@@ -65,8 +73,14 @@ impl Screen for ScoreList {
     }
 }
 
-/// Draws scores as a table from the middle of its upper edge down to `bottom`, one of them marked.
-pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, scores: &[Score], marked: Option<usize>) {
+/// Draws scores as a table from the middle of its upper edge down to `bottom`, one of them marked; returns how many there is room for.
+pub(super) fn draw_table(
+    pen: &mut Pen,
+    [middle, top]: [f32; 2],
+    bottom: f32,
+    scores: &[Score],
+    marked: Option<usize>,
+) -> usize {
     let line = pen.line(TextSize::Body);
     let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
     let room = ((bottom - top) / line) as usize;
@@ -76,7 +90,8 @@ pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, sc
             pen.write(Vec2::new(x, top), TextSize::Small, Align::Right, HALO, head);
         }
     }
-    for (k, score) in scores.iter().take(room.saturating_sub(1)).enumerate() {
+    let room = room.saturating_sub(1);
+    for (k, score) in scores.iter().take(room).enumerate() {
         let is_marked = marked == Some(k);
         let colour = if is_marked { READY } else { HALO };
         let rank = if is_marked { format!("> {}", k + 1) } else { (k + 1).to_string() };
@@ -85,4 +100,5 @@ pub(super) fn draw_table(pen: &mut Pen, [middle, top]: [f32; 2], bottom: f32, sc
             pen.write(Vec2::new(x, top + line * (k + 1) as f32), TextSize::Body, Align::Right, colour, &cell);
         }
     }
+    room
 }

@@ -25,6 +25,7 @@ const SOUND: usize = 8;
 const ARROWS: usize = 9;
 const FULL_SCREEN: usize = 10;
 const KEYS: usize = 11;
+const NAME: usize = 12;
 
 impl SettingsMenu {
     pub(super) fn new(context: &AppContext) -> Self {
@@ -47,6 +48,7 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
         MenuItem::switch(Key::SettingsArrows, settings.classic_arrows),
         MenuItem::switch(Key::SettingsFullScreen, settings.full_screen),
         MenuItem::new(Key::SettingsKeys),
+        MenuItem::with(Key::SettingsName, settings.name.clone()),
         MenuItem::new(Key::Back),
     ]
 }
@@ -89,6 +91,7 @@ fn change(choice: MenuChoice, context: &mut AppContext) -> Option<Next> {
         MenuChoice::Less(SOUND) => settings.change_sound(false),
         MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
         MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
+        MenuChoice::Pick(NAME) => return Some(Next::Open(Overlay::Name)),
         MenuChoice::Pick(KEYS) => return Some(Next::Open(Overlay::Keys)),
         _ => return Some(Next::Back),
     }

@@ -12,6 +12,7 @@ use super::guide::Guide;
 use super::join::Join;
 use super::keys_menu::KeysMenu;
 use super::lobby::{self, Lobby};
+use super::name::NameEntry;
 use super::pause::Pause;
 use super::photo::Photo;
 use super::pick::Pick;
@@ -161,6 +162,7 @@ fn open(overlay: Overlay, context: &mut AppContext) -> Box<dyn Screen> {
         Overlay::Goals => Box::new(Goals::new(context)),
         Overlay::Scores => Box::new(ScoreList::new(context)),
         Overlay::Settings => Box::new(SettingsMenu::new(context)),
+        Overlay::Name => Box::new(NameEntry::new(context)),
         Overlay::Keys => Box::new(KeysMenu::new(context)),
     }
 }

@@ -12,9 +12,13 @@ use crate::ui::pen::Pen;
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 use microsim_core::{Intent, OrganismId, OrganismView, View};
+use std::ops::Range;
 
 /// Distance of the goal to which arrow keys steer, units: speed does not depend on it.
 const STEERED: f32 = 30.0;
+
+/// When it is said how to change the optics, s.
+const OPTICS_TIME: Range<f64> = 40.0..46.0;
 
 /// The hands of up to two players.
 #[derive(Debug, Default)]
@@ -88,6 +92,11 @@ pub(super) fn first_advice(deed: FirstDeed, has_buttons: bool) -> String {
         FirstDeed::Crawl => words::text_with(Key::HintCrawl, &[("what", held_to_crawl(has_buttons).into())]),
         FirstDeed::Eat => words::text(Key::HintEat).to_owned(),
     }
+}
+
+/// How to change the optics, when a round has gone on for a while.
+pub(super) fn optics_advice(time: f64, key: &str) -> Option<String> {
+    OPTICS_TIME.contains(&time).then(|| words::text_with(Key::LessonOptics, &[("key", key.into())]))
 }
 
 /// Targets of one who plays, the nearest first, but for those to which another one is nearer: each is marked once.

@@ -1,7 +1,7 @@
 //! The end of a round of two cells: who was better, or what both earned.
 
 use super::context::AppContext;
-use super::end_menu::{EndMenu, doubted, rank};
+use super::end_menu::{EndMenu, doubted, rank, signature};
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
@@ -36,7 +36,8 @@ impl TwoPlayersEnd {
         let told = if played == Paused::Replay { TwoPlayers::Versus.summary(scores) } else { way.verdict(scores, &[]) };
         let place = result.record.and_then(|record| {
             let game = format!("{NAME}, together");
-            let score = Score { game, time: result.time, points, small: 0, rigid: 0 };
+            let (name, day) = signature(context);
+            let score = Score { game, time: result.time, points, small: 0, rigid: 0, name, day };
             let is_kept = way == TwoPlayers::Together;
             let (place, kept) = if is_kept { context.scores.add(score, &context.store) } else { (None, Ok(())) };
             context.keep_game(record, kept);

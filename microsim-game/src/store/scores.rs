@@ -22,6 +22,31 @@ pub struct Score {
     pub small: u32,
     /// Number of rigid cells that were digested.
     pub rigid: u32,
+    /// Who played; empty if that was not said.
+    #[serde(default)]
+    pub name: String,
+    /// Days since 1 January 1970; 0 if that is not known.
+    #[serde(default)]
+    pub day: u32,
+}
+
+impl Score {
+    /// The day as year, month and day of the Gregorian calendar, as in ISO 8601; empty if it is not known.
+    #[must_use]
+    pub fn date(&self) -> String {
+        if self.day == 0 {
+            return String::new();
+        }
+        // Years begin in March, so that a leap day is the last one; 400 of them have as many days each time.
+        let days = u64::from(self.day) + 719_468;
+        let (era, day_of_era) = (days / 146_097, days % 146_097);
+        let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+        let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+        let month = (5 * day_of_year + 2) / 153;
+        let day = day_of_year - (153 * month + 2) / 5 + 1;
+        let (month, later) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
+        format!("{}-{month:02}-{day:02}", 400 * era + year_of_era + later)
+    }
 }
 
 /// All scores that are kept, the best ones first.
@@ -97,7 +122,23 @@ mod tests {
     use crate::store::files::tests::Folder;
 
     fn score(points: u32, time: f32) -> Score {
-        Score { game: "game".to_owned(), time, points, small: 0, rigid: 0 }
+        Score { game: "game".to_owned(), time, points, small: 0, rigid: 0, name: String::new(), day: 0 }
+    }
+
+    #[test]
+    fn days_are_dates() {
+        let date = |day| Score { day, ..score(1, 90.0) }.date();
+        let dates = [0, 1, 58, 59, 11_016, 11_017, 19_782, 20_785, 47_540, 47_541].map(date);
+        let expected = ["", "1970-01-02", "1970-02-28", "1970-03-01", "2000-02-29", "2000-03-01", "2024-02-29"];
+        assert_eq!(dates[..7], expected);
+        assert_eq!(dates[7..], ["2026-11-28", "2100-02-28", "2100-03-01"], "no leap day in 2100");
+    }
+
+    #[test]
+    fn scores_of_before_have_neither_name_nor_date() {
+        let text = "[[score]]\ngame = \"game\"\ntime = 90.0\npoints = 5\nsmall = 1\nrigid = 0\n";
+        let scores: Scores = toml::from_str(text).unwrap();
+        assert_eq!(scores.score, [Score { small: 1, ..score(5, 90.0) }]);
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct Settings {
     pub sound: usize,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the thesis.
     pub classic_arrows: bool,
+    /// What the player is called in the list of scores; empty for nothing.
+    pub name: String,
     /// Name of the way of looking, see [`crate::scenery::Sight`].
     pub sight: String,
     /// Tag of the language, see [`Language`]; empty for that of the system.
@@ -55,6 +57,7 @@ impl Default for Settings {
             pace: 0,
             sound: 3,
             classic_arrows: false,
+            name: String::new(),
             sight: String::new(),
             language: String::new(),
             effort: Effort::default(),
@@ -79,6 +82,7 @@ impl Settings {
             pace,
             sound,
             classic_arrows,
+            name,
             sight,
             language,
             effort,
@@ -93,6 +97,7 @@ impl Settings {
             pace: newer(self.pace, pace, others.pace),
             sound: newer(self.sound, sound, others.sound),
             classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
+            name: newer(self.name, name, others.name),
             sight: newer(self.sight, sight, others.sight),
             language: newer(self.language, language, others.language),
             effort: newer(self.effort, effort, others.effort),
