@@ -8,7 +8,7 @@ use glam::Vec2;
 pub struct SpecField {
     /// Its name.
     pub name: &'static str,
-    /// What it means, with its unit, in a line; lengths are in micrometres.
+    /// What it means, with its unit, in a line; lengths are in micrometres. Empty without the feature `schema`.
     pub words: &'static str,
     /// Whether a scenario file has to state it.
     pub is_required: bool,
@@ -35,14 +35,16 @@ pub enum FieldValue<'a> {
 /// Is shown every field of a spec.
 pub type FieldVisitor<'v> = dyn FnMut(SpecField, FieldValue<'_>) + 'v;
 
-/// A field with a default.
+/// A field with a default. Inlined, so that programs without the feature `schema` do not hold the words.
+#[inline(always)]
 pub(crate) const fn field(name: &'static str, words: &'static str) -> SpecField {
-    SpecField { name, words, is_required: false }
+    SpecField { name, words: if cfg!(feature = "schema") { words } else { "" }, is_required: false }
 }
 
 /// A field that a scenario file has to state.
+#[inline(always)]
 pub(crate) const fn required(name: &'static str, words: &'static str) -> SpecField {
-    SpecField { name, words, is_required: true }
+    SpecField { is_required: true, ..field(name, words) }
 }
 
 /// Checks that all fields of a spec are within their ranges; names the first that is not.
