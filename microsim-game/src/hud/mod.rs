@@ -49,9 +49,9 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));
-    if (0.0..=COUNTED_SECONDS).contains(&left) && left > 0.0 && whole > COUNTED_SECONDS {
+    if left > 0.0 && left <= COUNTED_SECONDS && whole > COUNTED_SECONDS {
         let at = Vec2::new(0.5 * screen.x, middle + 1.6 * line);
-        pen.label(at, TextSize::Huge, Align::Centre, ALERT, &(left.ceil() as u32).to_string());
+        pen.label(at, TextSize::Large, Align::Centre, ALERT, &(left.ceil() as u32).to_string());
     }
     if !status.note.is_empty() {
         let beside = pen.width(size, status.score).max(pen.width(TextSize::Large, &clock(left))) + line;
@@ -104,6 +104,18 @@ mod tests {
         assert_eq!(pen.canvas().count(READY), 0);
         draw_done(&mut pen, "Reach the place", 0.0);
         assert!(pen.canvas().count(READY) > 0 && lowest(&mut pen) < above && lowest(&mut pen) > 0.0);
+    }
+
+    #[test]
+    fn the_last_seconds_are_counted_in_the_middle() {
+        let middle = |left: f32| {
+            let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.0);
+            draw_status(&mut pen, &Status { score: "1", time: [left, 60.0], is_calm: true, note: "" });
+            let at: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
+            at.into_iter().filter(|at| at.x > 280.0 && at.x < 360.0 && at.y > 40.0).count()
+        };
+        assert_eq!([6.0, 5.5, 0.0].map(middle), [0; 3]);
+        assert!([5.0, 4.2, 0.1].map(middle).iter().all(|corners| *corners > 0));
     }
 
     #[test]

@@ -35,7 +35,8 @@ pub(super) struct Lobby {
 pub(super) fn enter(code: &str, context: &mut AppContext) -> Result<Lobby, String> {
     context.room = None;
     let transport = platform::open_room(&context.party.server, code, &context.party.key)?;
-    let mut room = Room::new(transport, code, &context.party.name);
+    let name = [&context.party.name, &context.settings.name].into_iter().find(|name| !name.is_empty());
+    let mut room = Room::new(transport, code, name.map_or("", String::as_str));
     room.set_seed(context.game.seed);
     context.room = Some(room);
     Ok(Lobby::new(None))
