@@ -100,7 +100,7 @@ pub(crate) fn sealed(magic: [u8; 8], content: &[u8]) -> Vec<u8> {
 
 /// How a snapshot of a world begins.
 const WORLD: [u8; 8] = *b"MSIMWRLD";
-const WORLD_VERSION: u32 = 11;
+const WORLD_VERSION: u32 = 12;
 /// Of checkpoints.
 const RUN_VERSION: u32 = 7;
 /// Of replays.

@@ -8,7 +8,7 @@ use microsim_core::geometry::polygon::{contains_point, signed_area};
 use microsim_core::glam::Vec2;
 use microsim_core::{
     AmoeboidCellSpec, Controller, Crawl, ErrorKind, Inputs, MembraneRegion, OrganismId, Placement, PlateletSpec,
-    ProbeSpec, Rng, Role, World, WorldConfig,
+    ProbeSpec, PseudopodParams, Rng, Role, World, WorldConfig,
 };
 
 fn a_cell() -> (World, OrganismId) {
@@ -300,7 +300,10 @@ fn a_driven_cell_has_the_area_of_its_radii() {
     ] {
         let config = WorldConfig { size: Vec2::splat(500.0), substeps, ..WorldConfig::default() };
         let mut world = World::new(config).unwrap();
-        let spec = AmoeboidCellSpec { radii: Vec2::splat(radius), speed, crawl, ..AmoeboidCellSpec::default() };
+        // What spreads covers more or less of the plane with its activity: tests/crawl.rs.
+        let pseudopods = crawl.pseudopods().map(|params| PseudopodParams { spreading: 0.0, ..params });
+        let radii = Vec2::splat(radius);
+        let spec = AmoeboidCellSpec { radii, speed, crawl, pseudopods, ..AmoeboidCellSpec::default() };
         let cell = world.spawn(&spec.into(), Placement::at(100.0, 250.0)).unwrap();
         let inputs = toward(cell, 1e4, 250.0);
         run(&mut world, &inputs, 120);

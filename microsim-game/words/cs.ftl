@@ -19,7 +19,7 @@ percent = { $number } %
 
 title-motto = buňka pod mikroskopem
 title-new = Jsi tu poprvé? První preparáty trvají minutu.
-title-goal = Potravní řetězec: { $what }, { $done } z { $least }
+title-goal = Potravní řetězec, další cíl: { $what }, { $done } z { $least }
 title-version = verze { $version }
 title-play = Hrát
 title-slides = Preparáty
@@ -95,7 +95,7 @@ pause-photo = Fotografie
 hud-score = Body { $points }
 hud-places = Místa { $counts }
 hud-digested = Stráveno { $counts }
-hud-lived = Život { $time } s   Velikost { $size }, změna při { $next }
+hud-lived = Život { $time } s   Velikost { $size }, nové tělo při { $next }
 hud-second-life = druhý život: { $sisters }
 hud-bitten = Někdo tě okusuje: uteč!
 hud-full = plno
@@ -150,7 +150,7 @@ missed-rigid = Žádný nálevník: pohlť některého pod zelenou šipkou.
 missed-rigid-most = Žádný nálevník, a ti se počítají nejvíc. Rosti na drobné potravě, dokud nad některým není zelená šipka.
 goal-better = Další cíl: víc než { $points }
 goal-first = Další cíl: první body
-goal-own-best = Další cíl: překonat svůj rekord { $points }
+goal-own-best = Další cíl: { $points } bodů
 
 ## Nejlepší výsledky
 
@@ -200,7 +200,7 @@ chain-wins = Nejdelší život: { $name }, { $best } s ku { $others } s
 chain-draw = Remíza, všichni vydrželi { $points } s
 chain-draw-best = Remíza nejlepších, každý { $points } s
 chain-lived = Tvůj život: { $time } s
-chain-starved = Došla ti potrava. Větší buňky potřebují víc: jdi, kde je drobné potravy hodně, a ber nálevníky pod zelenou šipkou.
+chain-starved = Došla ti potrava. Jdi, kde je drobné potravy hodně, a ber nálevníky pod zelenou šipkou.
 chain-starved-fact = Améba, která nenajde potravu, se zakulatí a vytvoří cystu, nebo uhyne; tahle ji hledala až do konce.
 chain-eaten = Snědla tě větší améba. Od výstražné značky hned odlez mezerou; velké buňky jedí soupeře.
 chain-eaten-alone = Snědla tě větší améba. Od výstražné značky uteč a včas se rozděl: sestra je druhý život.

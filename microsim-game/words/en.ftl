@@ -17,7 +17,7 @@ percent = { $number } %
 
 title-motto = a cell under the microscope
 title-new = New here? The first slides take a minute each.
-title-goal = Food chain: { $what }, { $done } of { $least }
+title-goal = Food chain, next goal: { $what }, { $done } of { $least }
 title-version = version { $version }
 title-play = Play
 title-slides = Slides
@@ -93,7 +93,7 @@ pause-photo = Photo
 hud-score = Score { $points }
 hud-places = Places { $counts }
 hud-digested = Digested { $counts }
-hud-lived = Lived { $time } s   Size { $size }, change at { $next }
+hud-lived = Lived { $time } s   Size { $size }, new body at { $next }
 hud-second-life = second life: { $sisters }
 hud-bitten = Bitten: get away!
 hud-full = full
@@ -144,7 +144,7 @@ missed-rigid = You took in no ciliate: take one under a green arrow.
 missed-rigid-most = You took in no ciliate, and they count most. Grow on small food until a green arrow is over one.
 goal-better = Next: more than { $points }
 goal-first = Next: the first points
-goal-own-best = Next: beat your best, { $points }
+goal-own-best = Next: { $points } points
 
 ## High scores
 
@@ -153,7 +153,7 @@ scores-none = None yet. Play!
 scores-leave = Enter or a click: back
 scores-points = points
 scores-small = small
-scores-cells = large
+scores-cells = ciliates
 scores-others = Food chain: { $time } s   Slides: { $stars } of { $all } stars
 
 ## Slides
@@ -194,7 +194,7 @@ chain-wins = { $name } lived longest, { $best } s to { $others } s
 chain-draw = A draw, all lived { $points } s
 chain-draw-best = A draw of the best, { $points } s each
 chain-lived = You lived { $time } s
-chain-starved = You starved. Larger cells need more: go where small food is dense, and take ciliates under a green arrow.
+chain-starved = You starved. Go where small food is dense, and take ciliates under a green arrow.
 chain-starved-fact = An amoeba that finds no food rounds up into a cyst or dies; yours looked for food to the end.
 chain-eaten = A larger amoeba ate you. At a warning sign crawl away at once, through a gap; grown cells eat rivals.
 chain-eaten-alone = A larger amoeba ate you. Flee at a warning sign, and divide in time: a sister is a second life.

@@ -26,13 +26,19 @@ pub fn missed(result: &RoundResult) -> Option<String> {
     }
 }
 
+/// The next round number above a best score: a fifth more at least, in steps that grow with it.
+fn milestone(points: u32) -> u32 {
+    let step = if points < 500 { 100 } else { 250 };
+    (points + points / 5).div_ceil(step) * step
+}
+
 /// The next goal, when `better` is the lowest of the kept scores that are higher.
 #[must_use]
 pub fn next_goal(points: u32, better: Option<u32>) -> String {
     match (points, better) {
         (_, Some(better)) => words::text_with(Key::GoalBetter, &[("points", better.into())]),
         (0, None) => words::text(Key::GoalFirst).to_owned(),
-        (points, None) => words::text_with(Key::GoalOwnBest, &[("points", points.into())]),
+        (points, None) => words::text_with(Key::GoalOwnBest, &[("points", milestone(points).into())]),
     }
 }
 
@@ -75,7 +81,8 @@ mod tests {
     #[test]
     fn the_next_goal_is_the_score_above() {
         assert_eq!(next_goal(30, Some(50)), "Next: more than 50");
-        assert_eq!(next_goal(50, None), "Next: beat your best, 50");
+        assert_eq!(next_goal(50, None), "Next: 100 points");
         assert_eq!(next_goal(0, None), "Next: the first points");
+        assert_eq!([10, 100, 120, 510, 1693].map(milestone), [100, 200, 200, 750, 2250]);
     }
 }

@@ -132,7 +132,7 @@ mod tests {
     fn the_status_tells_from_which_size_on_the_body_changes() {
         let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
         let (told, _) = status(&round, round.player()).unwrap();
-        assert!(told.starts_with("Lived 0 s   Size 1.0, change at 1.5"), "{told}");
+        assert!(told.starts_with("Lived 0 s   Size 1.0, new body at 1.5"), "{told}");
     }
 
     #[test]

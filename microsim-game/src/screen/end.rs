@@ -67,7 +67,7 @@ impl End {
         let (middle, line) = (0.25 * pen.screen().x, pen.line(TextSize::Body));
         for (k, (kind, entry)) in self.kinds.iter().enumerate() {
             let y = top + line * k as f32;
-            let what = format!("{} x {}", entry.count, plain_name(*kind));
+            let what = format!("{}: {}", plain_name(*kind), entry.count);
             pen.write(Vec2::new(middle + 1.0 * line, y), TextSize::Body, Align::Right, HALO, &what);
             pen.write(Vec2::new(middle + 4.0 * line, y), TextSize::Body, Align::Right, HALO, &entry.points.to_string());
         }
@@ -100,7 +100,8 @@ impl Screen for End {
         pen.write(heading, TextSize::Large, Align::Centre, HALO, &self.heading);
         if let Some(place) = self.place {
             let below = heading + Vec2::new(0.0, 0.95 * pen.line(TextSize::Large));
-            pen.write(below, TextSize::Body, Align::Centre, READY, &rank(place));
+            let colour = if place == 0 { READY } else { HALO };
+            pen.write(below, TextSize::Body, Align::Centre, colour, &rank(place));
         }
         let told = [self.missed.as_deref(), self.goal.as_deref()].into_iter().flatten();
         let told: Vec<String> = told.flat_map(|text| pen.wrap(TextSize::Small, text, 0.94 * screen.x)).collect();

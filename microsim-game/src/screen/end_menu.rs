@@ -7,6 +7,7 @@ use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
 use crate::words::{self, Key};
 use macroquad::miniquad;
+use microsim_core::glam::Vec2;
 
 /// Length of a day, s.
 const DAY: f64 = 86400.0;
@@ -59,12 +60,14 @@ impl EndMenu {
 
     pub(super) fn update(&mut self, input: &Input, context: &AppContext, layout: &MenuLayout) -> Option<EndChoice> {
         self.since += context.pace.elapsed;
-        self.has_let_go |= !input.is_held;
+        self.has_let_go |= !input.is_held && input.steer == Vec2::ZERO;
         self.has_moved |= self.has_let_go && input.has_moved;
         if self.since < DELAY {
             return None;
         }
-        let input = &Input { is_clicked: input.is_clicked && self.has_moved, ..input.clone() };
+        // Keys that steered move nothing until they are let go.
+        let step = input.step.filter(|_| self.has_let_go);
+        let input = &Input { is_clicked: input.is_clicked && self.has_moved, step, ..input.clone() };
         if input.presses(Action::Restart) {
             return Some(EndChoice::Again);
         }

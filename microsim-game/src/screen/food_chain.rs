@@ -10,6 +10,8 @@ use crate::ui::menu::{Menu, MenuItem};
 use crate::words::{self, Key};
 use macroquad::miniquad;
 
+/// How many other waters there are: numbers that people can say.
+pub(super) const WATERS: u64 = 1_000_000;
 /// Length of a day, s.
 const DAY: f64 = 86400.0;
 /// Time that the rules allow, s: scores of the food chain are kept under it.
@@ -46,7 +48,7 @@ impl Screen for FoodChainMenu {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         self.page.choose(input, &context.pen, |item| match item {
             0 => Next::Show(MainScreen::FoodChain(todays_seed(context))),
-            1 => Next::Show(MainScreen::FoodChain(new_seed(context))),
+            1 => Next::Show(MainScreen::FoodChain(new_seed(context) % WATERS)),
             _ => Next::Open(Overlay::Goals),
         })
     }

@@ -3,7 +3,7 @@
 
 use super::context::AppContext;
 use super::end_menu::{EndMenu, doubted, rank, signature};
-use super::food_chain::{LONGEST, todays_seed};
+use super::food_chain::{LONGEST, WATERS, todays_seed};
 use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen, new_seed};
 use crate::draw::palette::{HALO, READY, fade};
@@ -70,7 +70,7 @@ impl FoodChainEnd {
         }
         let mut told = vec![heading(words::text_with(Key::ChainLived, &[("time", feats.time.into())]))];
         if let Some(place) = place {
-            told.extend(place.map(|place| (TextSize::Body, READY, rank(place), 4)));
+            told.extend(place.map(|place| (TextSize::Body, if place == 0 { READY } else { HALO }, rank(place), 4)));
             told.extend(told_of(&life, [before, context.chain_records.best]));
         }
         let water = words::text_with(Key::ChainWater, &[("seed", (&life.seed.to_string()).into())]);
@@ -131,7 +131,7 @@ impl Screen for FoodChainEnd {
             Paused::Replay if !self.is_of_match => Next::Show(MainScreen::FoodChain(self.life.seed)),
             played => played.restart(),
         };
-        let other: fn(&AppContext) -> Next = |context| Next::Show(MainScreen::FoodChain(new_seed(context)));
+        let other: fn(&AppContext) -> Next = |context| Next::Show(MainScreen::FoodChain(new_seed(context) % WATERS));
         let others: &[fn(&AppContext) -> Next] = &[other, |_| Next::Show(MainScreen::Replay)];
         self.menu.lead(input, context, MENU_TOP, again, if self.is_of_match { &[] } else { others })
     }

@@ -27,7 +27,7 @@ pub(super) struct Title {
     backdrop: Option<Backdrop>,
     menu: Menu,
     targets: Vec<(Key, Target)>,
-    /// What is said below the title: the next goal of the food chain to one who has played it, where to begin to a newcomer.
+    /// What is said below the title: where to begin to one without a star, or the next goal of the food chain to one who has played it.
     note: Option<String>,
 }
 
@@ -66,8 +66,8 @@ impl Title {
         let items = targets.iter().map(|&(label, _)| MenuItem::new(label)).collect();
         let best = context.chain_records.best;
         let goal = best.next_goal(Key::TitleGoal).filter(|_| best != Feats::default());
-        let is_new = context.best_times.is_empty() && context.scores.is_empty();
-        let note = goal.or_else(|| is_new.then(|| words::text(Key::TitleNew).to_owned()));
+        let is_new = context.best_times.is_empty();
+        let note = is_new.then(|| words::text(Key::TitleNew).to_owned()).or(goal);
         Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets, note }
     }
 }

@@ -104,12 +104,6 @@ impl Scores {
         self.trim();
     }
 
-    /// Whether there are none, of any game.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.score.is_empty()
-    }
-
     /// The best ones of a game, the best first.
     pub fn of<'a>(&'a self, game: &'a str, time: f32) -> impl Iterator<Item = &'a Score> {
         self.score.iter().filter(move |score| score.game == game && score.time == time)

@@ -104,7 +104,7 @@ impl MenuLayout {
         let line = pen.line(TextSize::Body);
         let (item, bottom) = (Vec2::new(11.5 * line, ROW * line), 0.95 * pen.screen().y);
         // Below the title, but where two items have room.
-        let top = (0.36 * pen.screen().y).max(title_lines(pen)[2]).min(bottom - 2.0 * item.y).max(0.0);
+        let top = (0.32 * pen.screen().y).max(title_lines(pen)[2]).min(bottom - 2.0 * item.y).max(0.0);
         Self::of_height(Vec2::new(0.06 * pen.screen().x, top), item, bottom, TextSize::Body)
     }
 

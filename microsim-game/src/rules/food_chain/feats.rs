@@ -26,8 +26,8 @@ type Measure = (Key, fn(&Feats) -> u32, &'static [u32]);
 
 const MEASURES: [Measure; 6] = [
     (Key::FeatChanges, |feats| feats.changes, &[1, 2, 3, 5, 8]),
-    (Key::FeatTime, |feats| feats.time, &[60, 120, 180, 300, 600]),
-    (Key::FeatSmall, |feats| feats.small, &[20, 50, 100]),
+    (Key::FeatTime, |feats| feats.time, &[45, 120, 180, 300, 600]),
+    (Key::FeatSmall, |feats| feats.small, &[10, 50, 100]),
     (Key::FeatCells, |feats| feats.cells, &[1, 5, 15]),
     (Key::FeatDivisions, |feats| feats.divisions, &[1, 3]),
     (Key::FeatBites, |feats| feats.bites, &[10, 100]),
@@ -84,7 +84,7 @@ mod tests {
     fn the_nearest_goal_is_named_with_what_is_there_of_it() {
         let next = |feats: Feats| feats.next_goal(Key::ChainNext).unwrap();
         assert_eq!(next(Feats::default()), "Next goal: changes of the body, 0 of 1 in one life");
-        let some = Feats { changes: 1, time: 67, small: 9, ..Feats::default() };
+        let some = Feats { changes: 1, time: 67, small: 5, ..Feats::default() };
         assert_eq!(next(some), "Next goal: seconds alive, 67 of 120 in one life");
         assert_eq!((Feats::default().goals(), some.goals()), ([0, 20], [2, 20]));
         let all = Feats { time: 600, changes: 8, small: 100, cells: 15, bites: 100, divisions: 3 };

@@ -10,6 +10,7 @@ mod tools;
 mod undo;
 
 use super::context::AppContext;
+use super::pick::builtin_title;
 use super::{Next, Overlay, Paused, Screen};
 use crate::draw::palette::HALO;
 use crate::input::{Action, Input, Move};
@@ -164,7 +165,8 @@ impl Sandbox {
     /// Name and time, and with the debug view what there is and how long a step takes.
     fn draw_status(&self, pen: &mut Pen, is_exact: bool) {
         let time = self.stage.world().time() as f32;
-        let mut parts = vec![self.stage.name().to_owned(), format!("{} s", words::number(time, 2))];
+        let mut parts =
+            vec![builtin_title(self.stage.name()).text().to_owned(), format!("{} s", words::number(time, 2))];
         if self.is_paused {
             parts.push(words::text(Key::SandboxPaused).to_owned());
         }
