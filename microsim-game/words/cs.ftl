@@ -269,7 +269,7 @@ two-draw-best = { $points ->
 
 join-how = Napiš kód místnosti: 4 až 12 písmen a číslic. Enter vstoupí, Escape se vrátí.
 join-who = Dva až čtyři hráči se stejným kódem jsou ve stejné místnosti.
-name-how = Napiš jméno do nejlepších výsledků: nejvýš 12 písmen a číslic. Enter uloží, Escape zpět.
+name-how = Napiš jméno do výsledků a místností: nejvýš 12 písmen a číslic. Enter uloží, Escape zpět.
 
 ## Hráči
 

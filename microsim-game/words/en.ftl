@@ -257,7 +257,7 @@ two-draw-best = { $points ->
 
 join-how = Type the code of a room: 4 to 12 letters and digits. Enter goes there, Escape back.
 join-who = Two to four who type the same code are in the same room.
-name-how = Type your name for the high scores: up to 12 letters and digits. Enter keeps it, Escape goes back.
+name-how = Type your name for high scores and rooms: up to 12 letters and digits. Enter keeps it, Escape goes back.
 
 ## Players
 

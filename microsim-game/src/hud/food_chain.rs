@@ -197,6 +197,13 @@ mod tests {
     }
 
     #[test]
+    fn an_amoeba_of_the_same_size_has_a_sign_where_it_is_seen() {
+        let other = |x: f32| Other { at: Vec2::new(x, 45.0), half_extent: 8.0, distance: 20.0 };
+        let corners = |x: f32| drawn(|pen, style| draw_equals(pen, style, &[other(x)])).canvas().corners().count();
+        assert!(corners(80.0) > 0 && corners(400.0) == 0);
+    }
+
+    #[test]
     fn every_change_is_seen_on_the_body() {
         for change in Change::ALL {
             let mut world = World::new(WorldConfig::default()).unwrap();

@@ -2,15 +2,12 @@
 
 use super::context::AppContext;
 use super::join::LONGEST;
-use super::{MainScreen, Next};
+use super::{MainScreen, Next, today};
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
 use crate::words::{self, Key};
-use macroquad::miniquad;
 use microsim_core::glam::Vec2;
 
-/// Length of a day, s.
-const DAY: f64 = 86400.0;
 /// Time for which the menu does not answer, s.
 const DELAY: f32 = 0.7;
 
@@ -92,8 +89,7 @@ pub(super) fn rank(place: usize) -> String {
 
 /// Who played, and on which day since 1970; none in pictures that must come out the same.
 pub(super) fn signature(context: &AppContext) -> (String, u32) {
-    let day = if context.pace.is_exact { 0 } else { (miniquad::date::now() / DAY) as u32 };
-    (context.settings.name.chars().take(LONGEST).collect(), day)
+    (context.settings.name.chars().take(LONGEST).collect(), today(context).unwrap_or_default())
 }
 
 /// A heading, and a doubt about a replay that went otherwise.

@@ -2,18 +2,15 @@
 
 use super::context::AppContext;
 use super::page::MenuPage;
-use super::{MainScreen, Next, Overlay, Screen, new_seed};
+use super::{MainScreen, Next, Overlay, Screen, new_seed, today};
 use crate::input::Input;
 use crate::rules::food_chain::NAME;
 use crate::rules::food_chain::feats::Feats;
 use crate::ui::menu::{Menu, MenuItem};
 use crate::words::{self, Key};
-use macroquad::miniquad;
 
 /// How many other waters there are: numbers that people can say.
 pub(super) const WATERS: u64 = 1_000_000;
-/// Length of a day, s.
-const DAY: f64 = 86400.0;
 /// Time that the rules allow, s: scores of the food chain are kept under it.
 pub(super) const LONGEST: f32 = 3600.0;
 
@@ -79,7 +76,7 @@ fn note(best: Option<u32>, goal: Option<&str>, today: Option<u32>) -> String {
 
 /// The number of the day, but for pictures that must come out the same.
 pub(super) fn todays_seed(context: &AppContext) -> u64 {
-    if context.pace.is_exact { 1 } else { (miniquad::date::now() / DAY) as u64 }
+    today(context).map_or(1, u64::from)
 }
 
 #[cfg(test)]

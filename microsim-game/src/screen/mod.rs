@@ -207,6 +207,14 @@ impl Paused {
     }
 }
 
+/// Length of a day, s.
+const DAY: f64 = 86400.0;
+
+/// Days since 1 January 1970; none in pictures that must come out the same.
+fn today(context: &AppContext) -> Option<u32> {
+    (!context.pace.is_exact).then(|| (miniquad::date::now() / DAY) as u32)
+}
+
 /// Every round has a seed of its own, except for pictures that must come out the same.
 fn new_seed(context: &AppContext) -> u64 {
     let milliseconds = 1000.0 * miniquad::date::now();

@@ -1,4 +1,4 @@
-//! What the player is called in the list of scores.
+//! What the player is called in the list of scores, and in rooms.
 
 use super::context::AppContext;
 use super::join::{draw_typed, type_key};

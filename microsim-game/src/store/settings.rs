@@ -33,7 +33,7 @@ pub struct Settings {
     pub sound: usize,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the thesis.
     pub classic_arrows: bool,
-    /// What the player is called in the list of scores; empty for nothing.
+    /// What the player is called in the list of scores and, without `--name`, in rooms; empty for nothing.
     pub name: String,
     /// Name of the way of looking, see [`crate::scenery::Sight`].
     pub sight: String,

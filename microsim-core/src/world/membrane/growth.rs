@@ -93,10 +93,10 @@ impl World {
         }
         let held = self.organisms.get(id).map_or(Vec::new(), |organism| self.held_cells(organism));
         let organism = self.organisms.get_mut(id).ok_or_else(|| Error::new(ErrorKind::Stale, "organism"))?;
-        let (Some(_), Some(fluid)) = (organism.body.membrane(), organism.fluid) else {
+        let spacing = organism.fluid_spacing(&self.fluids);
+        let (Some(_), Some(fluid), Some(spacing)) = (organism.body.membrane(), organism.fluid, spacing) else {
             return Err(Error::unsupported("organism", "an organism with a membrane"));
         };
-        let spacing = self.fluids[fluid as usize].params.spacing * organism.spread_length();
         check_room(organism, &self.particles, spacing, nodes, particles)?;
         self.scratch.occupancy.clear();
         for _ in 0..nodes {

@@ -119,6 +119,17 @@ fn cells_of_different_players_bite_each_other_and_the_eater_grows() {
 }
 
 #[test]
+fn an_amoeba_is_a_threat_a_victim_or_an_equal() {
+    for (radius, expected) in [(9.5, [1, 0, 0]), (5.2, [0, 0, 1]), (3.5, [0, 1, 0])] {
+        let mut round = room(&[(5.0, [15.0, 30.0]), (radius, [60.0, 30.0])]);
+        round.step_all(&[Intent::REST; 2]);
+        let (view, own) = (round.world().view(), round.players().next().unwrap());
+        let [threats, victims] = threats_and_victims(view, own);
+        assert_eq!([threats.len(), victims.len(), equals(view, own).len()], expected, "radius {radius}");
+    }
+}
+
+#[test]
 fn up_to_four_play_the_scene_and_their_round_plays_again_as_it_was() {
     for players in 2..=4 {
         let mut round = round(players);
