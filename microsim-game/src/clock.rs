@@ -1,5 +1,8 @@
 //! Fixed steps out of frames of any length.
 
+use crate::words;
+use std::fmt;
+
 /// Longest frame that counts, s: after a stall the scene goes on where it was.
 const LONGEST_FRAME: f64 = 0.1;
 
@@ -47,6 +50,46 @@ impl FixedStep {
     }
 }
 
+/// How fast time can pass beside the usual.
+const TEMPOS: [f32; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0];
+
+/// How fast time passes in a simulation or a replay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tempo(usize);
+
+impl Default for Tempo {
+    fn default() -> Self {
+        Self(3)
+    }
+}
+
+impl Tempo {
+    /// How many times as fast as usual.
+    #[must_use]
+    pub fn factor(self) -> f32 {
+        TEMPOS[self.0]
+    }
+
+    /// The next faster or slower one, if there is one.
+    #[must_use]
+    pub fn changed(self, faster: bool, slower: bool) -> Self {
+        Self((self.0 + usize::from(faster)).saturating_sub(usize::from(slower)).min(TEMPOS.len() - 1))
+    }
+
+    /// The next one, or the one before, in a circle.
+    #[must_use]
+    pub fn next(self, is_back: bool) -> Self {
+        Self((self.0 + if is_back { TEMPOS.len() - 1 } else { 1 }) % TEMPOS.len())
+    }
+}
+
+/// What the player reads.
+impl fmt::Display for Tempo {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} x", words::shortest(self.factor()))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,5 +134,15 @@ mod tests {
         clock.feed(f32::NAN);
         clock.feed(-1.0);
         assert!((clock.alpha() - 0.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn tempos_end_where_keys_change_them_and_go_round_where_a_menu_does() {
+        let usual = Tempo::default();
+        assert_eq!((usual.factor(), usual.to_string()), (1.0, "1 x".to_owned()));
+        let by_keys = |faster| (0..9).fold(usual, |tempo, _| tempo.changed(faster, !faster)).factor();
+        assert_eq!([true, false].map(by_keys), [4.0, 0.1]);
+        let all = (0..TEMPOS.len()).fold(usual, |tempo, _| tempo.next(false));
+        assert_eq!((all, usual.next(false).next(true)), (usual, usual));
     }
 }

@@ -8,10 +8,13 @@ use macroquad::color::Color;
 use macroquad::models::{Mesh, draw_mesh};
 use macroquad::texture::Texture2D;
 use microsim_core::glam::Vec2;
+use std::f32::consts::FRAC_PI_2;
 use std::fmt;
 
 /// Pieces of a whole ring.
 const ARC_STEPS: f32 = 40.0;
+/// Pieces of a round corner.
+const CORNER_STEPS: usize = 4;
 /// Least radius of a ring's hole, pixels.
 const SMALLEST_HOLE: f32 = 1.0;
 /// Points of an outline that share their vertices with the next ones.
@@ -94,6 +97,23 @@ impl Canvas {
         self.quad([low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)], [colour; 4]);
     }
 
+    /// A plain rectangle with round corners.
+    pub(crate) fn rounded(&mut self, low: Vec2, high: Vec2, radius: f32, colour: Color) {
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let radius = radius.min(half.min_element());
+        let point = |k: usize| {
+            // The last point of each corner is followed by the first of the next one.
+            let quarter = (k / (CORNER_STEPS + 1)) as f32 * FRAC_PI_2;
+            let turn = (k % (CORNER_STEPS + 1)) as f32 / CORNER_STEPS as f32 * FRAC_PI_2;
+            let side = Vec2::from_angle(quarter + 0.5 * FRAC_PI_2).signum();
+            let at = side * (half - radius) + radius * Vec2::from_angle(quarter + turn);
+            middle + Vec2::new(at.x, -at.y)
+        };
+        let outline: Vec<Vec2> = (0..4 * (CORNER_STEPS + 1)).map(point).collect();
+        let fan: Vec<[u32; 3]> = (2..outline.len() as u32).map(|k| [0, k - 1, k]).collect();
+        self.fill(&outline, &fan, colour);
+    }
+
     /// A plain quadrangle.
     pub(crate) fn quad(&mut self, corners: [Vec2; 4], colours: [Color; 4]) {
         self.reserve(4, 6);
@@ -137,7 +157,7 @@ impl Canvas {
     /// A share of a ring, clockwise from its top.
     pub(crate) fn arc(&mut self, centre: Vec2, radius: f32, width: f32, share: f32, colour: Color) {
         let steps = (ARC_STEPS * share).ceil().max(1.0);
-        let turn = |k: f32| share * k / steps * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;
+        let turn = |k: f32| share * k / steps * std::f32::consts::TAU - FRAC_PI_2;
         let points: Vec<Vec2> =
             (0..=steps as usize).map(|k| centre + Vec2::from_angle(turn(k as f32)) * radius).collect();
         let (clear, half) = (Color { a: 0.0, ..colour }, 0.5 * width);
@@ -248,6 +268,20 @@ fn outward(points: &[Vec2], k: usize, is_open: bool) -> Vec2 {
 mod tests {
     use super::*;
     use macroquad::color::WHITE;
+
+    #[test]
+    fn round_corners_stay_inside_the_rectangle_and_touch_its_sides() {
+        let (low, high) = (Vec2::new(10.0, 20.0), Vec2::new(50.0, 32.0));
+        for radius in [0.0, 4.0, 99.0] {
+            let mut canvas = Canvas::bare();
+            canvas.rounded(low, high, radius, WHITE);
+            let corners: Vec<Vec2> = canvas.corners().map(|(at, ..)| at).collect();
+            let edges = corners.iter().fold([high, low], |[a, b], at| [a.min(*at), b.max(*at)]);
+            assert!(edges[0].abs_diff_eq(low, 1e-3) && edges[1].abs_diff_eq(high, 1e-3), "{edges:?}");
+            let is_cut = corners.iter().all(|at| at.distance(low) >= 0.4 * radius.min(6.0) - 1e-3);
+            assert!(is_cut, "{radius}: {corners:?}");
+        }
+    }
 
     #[test]
     fn rings_without_a_visible_hole_are_discs_of_the_same_reach() {

@@ -1,25 +1,29 @@
 //! What the food chain shows: who can bite and who can be bitten, and how the player's body has changed.
 
 use super::marks::{Style, draw_at_edge};
+use super::own::draw_rim;
 use crate::draw::palette::{ALERT, HALO, INK, READY, WAIT, fade};
 use crate::rules::food_chain::change::Change;
 use crate::rules::threat::Other;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::words::{self, Key};
-use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
+use microsim_core::{OrganismView, View};
 
 /// Distance within which threats outside the picture are pointed at, units.
 const WARNED: f32 = 90.0;
 /// Nodes of the outline between two marks of a change.
 const SPACING: usize = 4;
 
-/// Draws a warning over each amoeba that can bite, an arrow at the edge of the picture to a near one outside, and a ring around
-/// each that can be bitten.
-pub fn draw_others(pen: &mut Pen, style: &Style<'_>, [threats, victims]: &[Vec<Other>; 2]) {
+/// Draws a rim and a warning over each amoeba that can bite, an arrow at the edge of the picture to a near one outside, and a ring
+/// around each that can be bitten.
+pub fn draw_others(pen: &mut Pen, style: &Style<'_>, view: View<'_>, [threats, victims]: &[Vec<Other>; 2]) {
     let unit = pen.line(TextSize::Body);
     for threat in threats {
+        if let Some(cell) = view.organism(threat.cell) {
+            draw_rim(pen, style, cell, fade(ALERT, 0.9), 0.16);
+        }
         let (at, radius) = place(style, threat);
         if is_seen(pen, at, radius) {
             let top = Vec2::new(at.x, (at.y - radius - 0.9 * unit).max(2.6 * unit));
@@ -88,7 +92,7 @@ pub fn draw_changes(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
                     pen.canvas().arc(at, 0.22 * radius, 0.8 * unit, 1.0, fade(READY, 0.8));
                 }
                 Change::Thrift => draw_grains(pen, middle, radius, k, unit),
-                Change::Coat => draw_rim(pen, &outline, middle, (2.0 + 1.6 * more) * unit, unit),
+                Change::Coat => draw_coat(pen, &outline, middle, (2.0 + 1.6 * more) * unit, unit),
                 Change::WideMouth => {
                     let to = front.map_or(Vec2::X, |front| (front - middle).normalize_or(Vec2::X));
                     let (at, side) = (middle + to * (radius + (2.0 + 2.0 * more) * unit), to.perp() * 0.5 * radius);
@@ -121,7 +125,7 @@ fn draw_grains(pen: &mut Pen, middle: Vec2, radius: f32, turn: u32, size: f32) {
     }
 }
 
-fn draw_rim(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32) {
+fn draw_coat(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32) {
     let rim: Vec<Vec2> = outline.iter().map(|at| *at + (*at - middle).normalize_or_zero() * out).collect();
     for (width, colour) in [(2.0 * width, fade(INK, 0.5)), (width, fade(HALO, 0.9))] {
         for k in 0..rim.len() {
@@ -185,20 +189,26 @@ mod tests {
 
     #[test]
     fn threats_are_warned_of_and_victims_ringed_by_shape_and_colour() {
-        let other = |x: f32, distance: f32| Other { at: Vec2::new(x, 45.0), half_extent: 8.0, distance };
-        let mut seen = drawn(|pen, style| draw_others(pen, style, &[vec![other(80.0, 20.0)], vec![]]));
-        assert!(seen.canvas().count(ALERT) > 0 && seen.canvas().count(READY) == 0);
-        let mut outside = drawn(|pen, style| draw_others(pen, style, &[vec![other(400.0, 80.0)], vec![]]));
-        assert!(outside.canvas().count(ALERT) > 0, "an arrow");
-        let mut far = drawn(|pen, style| draw_others(pen, style, &[vec![other(400.0, 100.0)], vec![]]));
-        assert_eq!(far.canvas().count(ALERT), 0);
-        let mut victim = drawn(|pen, style| draw_others(pen, style, &[vec![], vec![other(80.0, 20.0)]]));
-        assert!(victim.canvas().count(READY) > 0 && victim.canvas().count(ALERT) == 0);
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
+        let other = |x: f32, distance: f32| Other { cell, at: Vec2::new(x, 45.0), half_extent: 8.0, distance };
+        let drawn_of = |others: [Vec<Other>; 2], colour| {
+            drawn(|pen, style| draw_others(pen, style, world.view(), &others)).canvas().count(colour)
+        };
+        let (seen, rim) = (drawn_of([vec![other(80.0, 20.0)], vec![]], ALERT), fade(ALERT, 0.9));
+        assert!(seen > 0 && drawn_of([vec![other(80.0, 20.0)], vec![]], READY) == 0);
+        assert!(drawn_of([vec![other(80.0, 20.0)], vec![]], rim) > 100, "a rim");
+        assert!(drawn_of([vec![other(400.0, 80.0)], vec![]], ALERT) > 0, "an arrow");
+        assert_eq!(drawn_of([vec![other(400.0, 100.0)], vec![]], ALERT), 0, "far away");
+        let victim = || [vec![], vec![other(80.0, 20.0)]];
+        assert!(drawn_of(victim(), READY) > 0 && drawn_of(victim(), ALERT) + drawn_of(victim(), rim) == 0);
     }
 
     #[test]
     fn an_amoeba_of_the_same_size_has_a_sign_where_it_is_seen() {
-        let other = |x: f32| Other { at: Vec2::new(x, 45.0), half_extent: 8.0, distance: 20.0 };
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
+        let other = |x: f32| Other { cell, at: Vec2::new(x, 45.0), half_extent: 8.0, distance: 20.0 };
         let corners = |x: f32| drawn(|pen, style| draw_equals(pen, style, &[other(x)])).canvas().corners().count();
         assert!(corners(80.0) > 0 && corners(400.0) == 0);
     }

@@ -1,29 +1,41 @@
 //! The player's own cell has a rim that no other has, in every way of looking. Cells of several players have numbers.
 
 use super::marks::Style;
-use crate::draw::palette::{HALO, INK, PLAYERS, READY, fade};
+use crate::draw::palette::{HALO, INK, PLAYERS, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use macroquad::color::Color;
 use microsim_core::OrganismView;
 use microsim_core::glam::Vec2;
 
 /// Width of the rims of others.
 pub const OTHERS: f32 = 0.6;
 
-/// Draws the rim, and the number of one of several players, each in a colour of its own. The rim
+/// Draws the rim in the colour of the player; of several players also a tint of it all over the cell, and the number. The rim
 /// is `width` times as wide as that of the own cell usually is.
 pub fn draw_own(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, number: Option<usize>, width: f32) {
-    let rim = number.map_or(READY, |number| PLAYERS[(number - 1) % PLAYERS.len()].1);
+    let rim = PLAYERS[number.unwrap_or(1).saturating_sub(1) % PLAYERS.len()].1;
+    let at = style.camera.to_screen(cell.centroid());
+    if number.is_some() {
+        let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
+        (0..outline.len()).for_each(|k| {
+            pen.canvas().corner([at, outline[k], outline[(k + 1) % outline.len()]], fade(rim, 0.38));
+        });
+    }
+    draw_rim(pen, style, cell, fade(rim, 0.85), 0.12 * width);
+    if let Some(number) = number {
+        pen.label(at, TextSize::Body, Align::Centre, rim, &number.to_string());
+    }
+}
+
+/// Draws a rim along the outline of a cell, this wide, lines of text.
+pub fn draw_rim(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, colour: Color, width: f32) {
     let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
-    let width = 0.1 * width * pen.line(TextSize::Body);
-    for (width, colour) in [(2.2 * width, fade(INK, 0.35)), (width, fade(rim, 0.7))] {
+    let width = width * pen.line(TextSize::Body);
+    for (width, colour) in [(2.0 * width, fade(INK, 0.4)), (width, colour)] {
         for k in 0..outline.len() {
             pen.canvas().segment(outline[k], outline[(k + 1) % outline.len()], width, colour);
         }
-    }
-    if let Some(number) = number {
-        let at = style.camera.to_screen(cell.centroid());
-        pen.label(at, TextSize::Body, Align::Centre, rim, &number.to_string());
     }
 }
 

@@ -11,12 +11,16 @@ use microsim_core::glam::Vec2;
 use microsim_core::scenario::Goal;
 use microsim_core::{OrganismView, View};
 
+/// Distance from whoever eats at which a ring around food is faintest, units, and how faint.
+const FAR: f32 = 45.0;
+const FAINT: f32 = 0.35;
+
 /// Draws a frame around each place, a thick one that is filled until a player was there; of two places to be held at the same time,
 /// which a line joins, while nobody is there. An arrow at the edge of the picture points to such a place outside. Where a cell touches
 /// a place, its middle is marked: that has to be inside.
 pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'_>) {
     let unit = pen.line(TextSize::Body);
-    let players: Vec<Vec2> = round.players().filter_map(|cell| round.world().centroid(cell)).collect();
+    let players = places_of_players(round);
     for (goal, done) in round.attempt().into_iter().flat_map(Attempt::goals) {
         let is_open = done < wanted(goal);
         if let (Goal::Together { places }, true) = (goal, is_open) {
@@ -65,16 +69,22 @@ fn draw_place(pen: &mut Pen, style: &Style<'_>, place: [Vec2; 2], is_open: bool)
     }
 }
 
-/// Draws a thin ring around everything small that can be digested.
-pub fn draw_food(pen: &mut Pen, style: &Style<'_>, view: View<'_>) {
-    let unit = pen.line(TextSize::Body);
+/// Draws a thin ring around everything small that can be digested, fainter the farther it is from those who eat.
+pub fn draw_food(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'_>) {
+    let (unit, eaters) = (pen.line(TextSize::Body), places_of_players(round));
     for food in view.organisms().filter(|organism| prey_class::is_small(*organism) && organism.held_by().is_none()) {
         let (low, high) = food.bounds();
-        let radius = 0.5 * (high - low).max_element() * style.camera.scale() + 0.35 * unit;
+        let radius = 0.5 * (high - low).max_element() * style.camera.scale() + 0.28 * unit;
         let at = style.camera.to_screen(food.centroid());
-        pen.canvas().arc(at, radius, 0.2 * unit, 1.0, fade(INK, 0.5));
-        pen.canvas().arc(at, radius, 0.1 * unit, 1.0, READY);
+        let distance = eaters.iter().map(|eater| eater.distance(food.centroid())).fold(FAR, f32::min);
+        let alpha = 1.0 - (1.0 - FAINT) * distance / FAR;
+        pen.canvas().arc(at, radius, 0.14 * unit, 1.0, fade(INK, 0.5 * alpha));
+        pen.canvas().arc(at, radius, 0.07 * unit, 1.0, fade(READY, alpha));
     }
+}
+
+fn places_of_players(round: &Round) -> Vec<Vec2> {
+    round.players().filter_map(|cell| round.world().centroid(cell)).collect()
 }
 
 fn draw_frame(pen: &mut Pen, low: Vec2, high: Vec2, width: f32, alpha: f32) {

@@ -2,7 +2,7 @@
 //! rim of the own cell swells once. Nothing of it blinks: each fades, and a rim does not swell again before it is done.
 
 use super::marks::Style;
-use crate::draw::palette::{HALO, INK, READY, fade};
+use crate::draw::palette::{ALERT, HALO, INK, READY, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::Pen;
 use macroquad::color::Color;
@@ -10,8 +10,16 @@ use microsim_core::glam::Vec2;
 
 /// Time for which a ring is seen, s.
 const TIME: f32 = 0.4;
+/// Half the length from which a meal is a large one, units.
+const LARGE: f32 = 2.0;
 /// How much wider the rim of a cell gets that has taken something in.
 const SWELLING: f32 = 1.2;
+
+/// Whether a meal of half this length, units, is a large one.
+#[must_use]
+pub fn is_large(half_extent: f32) -> bool {
+    half_extent > LARGE
+}
 
 /// A ring.
 #[derive(Clone, Copy, Debug)]
@@ -37,10 +45,18 @@ impl Pulses {
         self.rings.push(Pulse { at, radii: [0.9, 0.2], colour: HALO, age: 0.0 });
     }
 
-    /// Something was taken in at a point.
-    pub fn take(&mut self, at: Vec2) {
+    /// Something was taken in at a point; half its length, units. A large meal has a second, wider ring.
+    pub fn take(&mut self, at: Vec2, half_extent: f32) {
         self.rings.push(Pulse { at, radii: [0.4, 1.5], colour: READY, age: 0.0 });
+        if is_large(half_extent) {
+            self.rings.push(Pulse { at, radii: [1.5, 6.0], colour: READY, age: 0.0 });
+        }
         self.swelling.get_or_insert(0.0);
+    }
+
+    /// A cell is gone that was at a point.
+    pub fn lose(&mut self, at: Vec2) {
+        self.rings.push(Pulse { at, radii: [3.0, 0.2], colour: ALERT, age: 0.0 });
     }
 
     /// Lets time pass, s.
@@ -88,8 +104,12 @@ mod tests {
         for (is_taken, grows) in [(false, false), (true, true)] {
             let sizes = |time| {
                 let mut pulses = Pulses::default();
-                let answer = if is_taken { Pulses::take } else { Pulses::call };
-                answer(&mut pulses, Vec2::new(80.0, 45.0));
+                let at = Vec2::new(80.0, 45.0);
+                if is_taken {
+                    pulses.take(at, 1.0);
+                } else {
+                    pulses.call(at);
+                }
                 [0.05, 0.2, TIME].map(|elapsed| {
                     pulses.pass(elapsed);
                     size(&pulses, time)
@@ -103,10 +123,27 @@ mod tests {
     }
 
     #[test]
+    fn a_large_meal_has_a_wider_ring_and_a_cell_that_is_gone_one_that_closes() {
+        let sizes = |answer: fn(&mut Pulses, Vec2)| {
+            let mut pulses = Pulses::default();
+            answer(&mut pulses, Vec2::new(80.0, 45.0));
+            [0.05, 0.2].map(|elapsed| {
+                pulses.pass(elapsed);
+                size(&pulses, Some(0.0))
+            })
+        };
+        let [small, large] =
+            [|pulses: &mut Pulses, at| pulses.take(at, 1.0), |pulses: &mut Pulses, at| pulses.take(at, 4.0)].map(sizes);
+        assert!(large[1] > 2.0 * small[1] && large[1] > large[0], "{small:?} {large:?}");
+        let lost = sizes(Pulses::lose);
+        assert!(lost[0] > lost[1] && lost[1] > 0.0, "{lost:?}");
+    }
+
+    #[test]
     fn a_rim_swells_less_than_three_times_a_second_however_much_is_taken_in() {
         let (mut pulses, mut before, mut swellings) = (Pulses::default(), 1.0, 0);
         for _ in 0..600 {
-            pulses.take(Vec2::ZERO);
+            pulses.take(Vec2::ZERO, 1.0);
             swellings += u32::from(pulses.rim() > before + 0.5);
             before = pulses.rim();
             pulses.pass(1.0 / 60.0);

@@ -73,6 +73,7 @@ impl<'a> Flight<'a> {
 mod tests {
     use super::*;
     use microsim_core::scenario::Scenario;
+    use microsim_core::{Placement, ProbeSpec, World, WorldConfig};
 
     const LEFT: Vec2 = Vec2::new(25.0, 30.0);
     const RIGHT: Vec2 = Vec2::new(95.0, 30.0);
@@ -85,7 +86,9 @@ mod tests {
     }
 
     fn threat(at: Vec2, own: Vec2) -> Other {
-        Other { at, half_extent: 14.0, distance: at.distance(own) }
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&ProbeSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        Other { cell, at, half_extent: 14.0, distance: at.distance(own) }
     }
 
     #[test]

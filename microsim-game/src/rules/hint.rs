@@ -86,12 +86,13 @@ impl Hints {
     }
 }
 
-/// Where the last step brought what some cells took in.
-pub fn taken_in<'a>(world: &'a World, cells: &'a [OrganismId]) -> impl Iterator<Item = Vec2> + 'a {
-    world.events().iter().filter_map(|event| match event {
-        Event::Ingested { engulfer, prey, .. } if cells.contains(engulfer) => world.centroid(*prey),
+/// Where the last step brought what some cells took in, and half its length, units.
+pub fn taken_in<'a>(world: &'a World, cells: &'a [OrganismId]) -> impl Iterator<Item = (Vec2, f32)> + 'a {
+    let prey = world.events().iter().filter_map(|event| match event {
+        Event::Ingested { engulfer, prey, .. } if cells.contains(engulfer) => world.view().organism(*prey),
         _ => None,
-    })
+    });
+    prey.map(|prey| (prey.centroid(), half_extent(prey)))
 }
 
 /// Whether the player can take a soft cell in; `None` if it takes in nothing at all.
@@ -135,7 +136,10 @@ mod tests {
         while stage.world().time() < 15.0 {
             stage.step();
             let (low, high) = stage.world().view().organism(eater).unwrap().bounds();
-            taken.extend(taken_in(stage.world(), &[eater]).map(|at| at.cmpgt(low).all() && at.cmplt(high).all()));
+            taken.extend(taken_in(stage.world(), &[eater]).map(|(at, half)| {
+                let is_inside = at.cmpgt(low).all() && at.cmplt(high).all();
+                is_inside && half > 0.5 && half < 2.0
+            }));
             assert_eq!(taken_in(stage.world(), &[]).count(), 0);
         }
         assert_eq!(taken, [true]);

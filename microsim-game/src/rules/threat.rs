@@ -6,6 +6,8 @@ use microsim_core::{Event, IngestionWay, Inputs, Intent, OrganismId, OrganismVie
 /// Another amoeba, as the player's cell meets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Other {
+    /// Which one it is.
+    pub cell: OrganismId,
     /// Its middle.
     pub at: Vec2,
     /// Half its length, units.
@@ -19,7 +21,8 @@ impl Other {
     #[must_use]
     pub fn seen(other: OrganismView<'_>, cell: OrganismView<'_>) -> Self {
         let ((low, high), at) = (other.bounds(), other.centroid());
-        Self { at, half_extent: 0.5 * (high - low).max_element(), distance: (at - cell.centroid()).length() }
+        let (half_extent, distance) = (0.5 * (high - low).max_element(), (at - cell.centroid()).length());
+        Self { cell: other.id(), at, half_extent, distance }
     }
 }
 

@@ -68,10 +68,10 @@ pub(super) fn draw(
     (cell, is_played): (OrganismId, bool),
 ) {
     let Some(chain) = round.chain() else {
-        food_chain::draw_others(pen, style, &[engulfers(view, cell), Vec::new()]);
+        food_chain::draw_others(pen, style, view, &[engulfers(view, cell), Vec::new()]);
         return;
     };
-    food_chain::draw_others(pen, style, &threats_and_victims(view, cell));
+    food_chain::draw_others(pen, style, view, &threats_and_victims(view, cell));
     food_chain::draw_equals(pen, style, &equals(view, cell));
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
@@ -132,7 +132,7 @@ mod tests {
     fn the_status_tells_from_which_size_on_the_body_changes() {
         let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
         let (told, _) = status(&round, round.player()).unwrap();
-        assert!(told.starts_with("Lived 0 s   Size 1.0, new body at 1.5"), "{told}");
+        assert!(told.starts_with("Lived 0 s   Size 1.0, new body at 1.3"), "{told}");
     }
 
     #[test]

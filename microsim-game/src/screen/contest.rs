@@ -280,7 +280,7 @@ impl Screen for Contest {
                 own::draw_own(pen, &style, cell, Some(k + 1), width);
             }
         }
-        places::draw_food(pen, &style, view);
+        places::draw_food(pen, &style, round, view);
         places::draw_places(pen, &style, round, view);
         let mut taken = marks::MarkLayout::default();
         if round.chain().is_none() {

@@ -131,6 +131,8 @@ pub struct AppContext {
     pub game: GameChoice,
     /// A game that the player has opened beside it.
     pub(super) other_game: Option<GameChoice>,
+    /// What was opened last of the list of simulations.
+    pub(super) picked: Option<SceneSource>,
     /// Scenario files that the player has named or dropped, for the list.
     pub files: Vec<SceneSource>,
     /// The last round that was played to its end, as a replay.
@@ -185,6 +187,7 @@ impl AppContext {
             time: 0.0,
             game,
             other_game: None,
+            picked: None,
             files,
             last_game,
             last_seat: 0,
@@ -367,9 +370,12 @@ impl AppContext {
         let lines: Vec<String> = pen.wrap(TextSize::Small, text, 0.94 * screen.x).into_iter().take(most).collect();
         let widest = lines.iter().map(|text| pen.width(TextSize::Small, text)).fold(0.0, f32::max);
         let size = Vec2::new(widest + 0.8 * line, line * (lines.len() as f32 + 0.2));
-        let low = Vec2::new(0.5 * (screen.x - size.x), (0.78 * screen.y).min(screen.y - size.y - 0.3 * line));
+        // A photo is seen whole but for its upper edge.
+        let top = if self.photo.is_some() { 0.3 * line } else { 0.78 * screen.y };
+        let low = Vec2::new(0.5 * (screen.x - size.x), top.min(screen.y - size.y - 0.3 * line));
         // Menus do not shine through.
-        pen.canvas().rectangle(low, low + size, fade(INK, 0.95));
+        let radius = pen.rounding();
+        pen.canvas().rounded(low, low + size, radius, fade(INK, 0.95));
         for (k, text) in lines.iter().enumerate() {
             let at = Vec2::new(0.5 * screen.x, low.y + line * (k as f32 + 0.6));
             pen.write(at, TextSize::Small, Align::Centre, HALO, text);

@@ -2,7 +2,6 @@
 
 use super::context::AppContext;
 use super::end_menu::{EndMenu, doubted, rank, signature};
-use super::page::draw_shade;
 use super::scores::draw_table;
 use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
@@ -94,7 +93,7 @@ impl Screen for End {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_shade(pen);
+        self.menu.draw_shade(pen);
         let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
         let heading = Vec2::new(0.5 * screen.x, 0.09 * screen.y);
         pen.write(heading, TextSize::Large, Align::Centre, HALO, &self.heading);

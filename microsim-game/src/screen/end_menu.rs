@@ -2,14 +2,18 @@
 
 use super::context::AppContext;
 use super::join::LONGEST;
+use super::page::draw_shade;
 use super::{MainScreen, Next, today};
 use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
+use crate::ui::pen::Pen;
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 
 /// Time for which the menu does not answer, s.
 const DELAY: f32 = 0.7;
+/// Time in which the scene below gets dark, s.
+const FADING: f32 = 0.4;
 
 /// The menu.
 #[derive(Debug)]
@@ -53,6 +57,11 @@ impl EndMenu {
             Some(_) => Next::Show(MainScreen::Title),
             None => Next::Stay,
         }
+    }
+
+    /// Darkens the scene, more and more.
+    pub(super) fn draw_shade(&self, pen: &mut Pen) {
+        draw_shade(pen, (self.since / FADING).min(1.0));
     }
 
     pub(super) fn update(&mut self, input: &Input, context: &AppContext, layout: &MenuLayout) -> Option<EndChoice> {

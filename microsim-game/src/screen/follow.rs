@@ -13,6 +13,8 @@ const VIEW: f32 = 62.0;
 /// The picture grows with this power of the cell's area, at this rate, 1/s.
 const POWER: f32 = 0.3;
 const RATE: f32 = 1.5;
+/// What is left of the picture's height when it is brought closer.
+const NUDGE: f32 = 0.95;
 
 #[derive(Debug)]
 pub(super) struct Follow {
@@ -27,6 +29,12 @@ impl Follow {
         let world = round.world();
         let first_area = world.view().organism(cell).map_or(1.0, |cell| cell.cytoplasm_area());
         (Self { first_area, grown: 1.0 }, first_view(world, Some(cell), VIEW, screen))
+    }
+
+    /// Brings the camera closer at once, as at a large meal; it goes back by itself.
+    pub(super) fn nudge(&mut self, viewer: &mut Viewer, screen: Vec2) {
+        viewer.camera.zoom(1.0 / NUDGE, 0.5 * screen);
+        self.grown *= NUDGE;
     }
 
     /// Moves the camera in a frame; it looks ahead to the cursor if the mouse steers.

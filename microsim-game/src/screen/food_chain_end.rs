@@ -4,7 +4,6 @@
 use super::context::AppContext;
 use super::end_menu::{EndMenu, doubted, rank, signature};
 use super::food_chain::{LONGEST, WATERS, todays_seed};
-use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen, new_seed};
 use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
@@ -138,7 +137,7 @@ impl Screen for FoodChainEnd {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_shade(pen);
+        self.menu.draw_shade(pen);
         let layout = MenuLayout::middle(pen, MENU_TOP);
         let (lines, end) = lines_of(pen, &self.told, layout.corner.y);
         let down = 0.4 * (layout.corner.y - end).max(0.0);

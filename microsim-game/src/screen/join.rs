@@ -47,9 +47,10 @@ pub(super) fn draw_typed(pen: &mut Pen, heading: Key, typed: &str, told: &[Key])
     draw_heading(pen, words::text(heading));
     let (middle, line) = (0.5 * pen.screen(), pen.line(TextSize::Body));
     let half = Vec2::new((7.5 * line).min(middle.x), line);
-    pen.canvas().rectangle(middle - half, middle + half, fade(HALO, 0.5));
+    let radius = pen.rounding();
+    pen.canvas().rounded(middle - half, middle + half, radius, fade(HALO, 0.5));
     let inner = half - Vec2::splat(0.1 * line);
-    pen.canvas().rectangle(middle - inner, middle + inner, fade(INK, 0.9));
+    pen.canvas().rounded(middle - inner, middle + inner, radius, fade(INK, 0.9));
     pen.write(middle, TextSize::Large, Align::Centre, READY, &format!("{typed}_"));
     let told = told.iter().flat_map(|key| pen.wrap(TextSize::Small, words::text(*key), 0.94 * pen.screen().x));
     for (k, text) in told.collect::<Vec<_>>().into_iter().enumerate() {

@@ -19,7 +19,7 @@ const NOTE_WIDTH: f32 = 0.9;
 /// Height of an item that has room for a picture, lines.
 const TALL: f32 = 2.6;
 /// How dark what lies below gets.
-const SHADE: f32 = 0.83;
+const SHADE: f32 = 0.76;
 
 /// A heading and a menu.
 #[derive(Debug)]
@@ -108,15 +108,15 @@ pub(super) fn is_seen_whole(note: &str) -> bool {
     crate::ui::pen::wrap(note, fits).len() <= note_lines(&pen)
 }
 
-/// Darkens what lies below.
-pub(super) fn draw_shade(pen: &mut Pen) {
+/// Darkens what lies below, by a share of how dark it gets.
+pub(super) fn draw_shade(pen: &mut Pen, share: f32) {
     let screen = pen.screen();
-    pen.canvas().rectangle(Vec2::ZERO, screen, fade(INK, SHADE));
+    pen.canvas().rectangle(Vec2::ZERO, screen, fade(INK, share * SHADE));
 }
 
 /// Darkens what lies below, and writes a heading.
 pub(super) fn draw_heading(pen: &mut Pen, text: &str) {
-    draw_shade(pen);
+    draw_shade(pen, 1.0);
     let at = Vec2::new(0.5 * pen.screen().x, heading_height(pen));
     let fits = |size: &TextSize| pen.width(*size, text) <= 0.96 * pen.screen().x;
     let size = [TextSize::Large, TextSize::Body].into_iter().find(fits).unwrap_or(TextSize::Small);

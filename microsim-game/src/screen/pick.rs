@@ -47,7 +47,10 @@ impl Pick {
             scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), about(found)));
         let sources: Vec<_> = files.chain(builtins).collect();
         let items = sources.iter().map(|(source, _)| MenuItem::new(title(source))).collect();
-        Self { page: MenuPage::new(Key::TitleSimulation, items).tall(), sources }
+        let mut page = MenuPage::new(Key::TitleSimulation, items).tall();
+        let picked = sources.iter().position(|(source, _)| Some(source) == context.picked.as_ref());
+        page.menu.set_focus(picked.unwrap_or_default());
+        Self { page, sources }
     }
 }
 
@@ -73,6 +76,7 @@ impl Screen for Pick {
         let seen = self.page.menu.shown(&self.page.layout(&context.pen));
         context.album.add_one(seen.map(|(item, _)| &self.sources[item].0), &mut context.scenery);
         let Some(MenuChoice::Pick(item)) = self.page.update(input, &context.pen) else { return Next::Stay };
+        context.picked = Some(self.sources[item].0.clone());
         context.open(&self.sources[item].0).map_or(Next::Stay, Next::Show)
     }
 

@@ -2,7 +2,6 @@
 
 use super::context::AppContext;
 use super::end_menu::{EndChoice, EndMenu, doubted};
-use super::page::draw_shade;
 use super::{MainScreen, Next, Overlay, Paused, Screen};
 use crate::draw::palette::{HALO, READY, fade};
 use crate::input::Input;
@@ -156,7 +155,7 @@ impl Screen for SlideEnd {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_shade(pen);
+        self.menu.draw_shade(pen);
         let radius = 0.45 * pen.line(TextSize::Large);
         draw_stars(pen, Vec2::new(0.5, 0.09) * pen.screen(), radius, self.stars, READY);
         for (at, size, colour, line) in self.lines(pen) {

@@ -2,7 +2,6 @@
 
 use super::context::AppContext;
 use super::end_menu::{EndMenu, doubted, rank, signature};
-use super::page::draw_shade;
 use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::Input;
@@ -60,7 +59,7 @@ impl Screen for TwoPlayersEnd {
 
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
-        draw_shade(pen);
+        self.menu.draw_shade(pen);
         let mut at = Vec2::new(0.5, 0.24) * pen.screen();
         for line in pen.wrap(TextSize::Large, &self.heading, 0.94 * pen.screen().x) {
             pen.write(at, TextSize::Large, Align::Centre, HALO, &line);

@@ -248,7 +248,8 @@ impl Menu {
     fn draw_item(&self, pen: &mut Pen, layout: &MenuLayout, low: Vec2, item: &MenuItem, has_focus: bool) {
         let high = low + layout.item - Vec2::new(0.0, 2.0);
         let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.76), HALO) };
-        pen.canvas().rectangle(low, high, back);
+        let radius = 0.6 * pen.rounding();
+        pen.canvas().rounded(low, high, radius, back);
         let middle = 0.5 * (low.y + high.y);
         let inset = 0.4 * layout.item.y.min(ROW * pen.line(layout.size));
         // The item in focus is marked by shape as well.
@@ -327,7 +328,7 @@ mod tests {
         menu.draw(&mut pen, &layout);
         let end = layout.corner + Vec2::new(layout.item.x, 3.0 * layout.item.y);
         let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
-        assert!(corners.iter().all(|at| (layout.corner.y..=end.y).contains(&at.y)), "{corners:?}");
+        assert!(corners.iter().all(|at| (layout.corner.y - 0.01..=end.y).contains(&at.y)), "{corners:?}");
         assert!(corners.iter().any(|at| at.x > end.x), "{corners:?}");
     }
 

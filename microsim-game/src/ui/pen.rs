@@ -11,6 +11,9 @@ use microsim_core::glam::Vec2;
 /// Height of a picture for which text has its usual size, and its width.
 const USUAL: Vec2 = Vec2::new(1280.0, 720.0);
 
+/// Radius of the corners of panels, lines of text.
+const ROUNDING: f32 = 0.22;
+
 /// Where text lies from its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
@@ -118,9 +121,16 @@ impl Pen {
         self.write(middle, size, Align::Centre, colour, text);
     }
 
+    /// Radius of the corners of panels and menus, drawing units.
+    #[must_use]
+    pub fn rounding(&self) -> f32 {
+        ROUNDING * self.line(TextSize::Body)
+    }
+
     /// A dark panel.
     pub fn panel(&mut self, low: Vec2, high: Vec2) {
-        self.canvas.rectangle(low, high, fade(INK, 0.82));
+        let radius = self.rounding();
+        self.canvas.rounded(low, high, radius, fade(INK, 0.78));
     }
 
     /// Width of text, drawing units.

@@ -37,8 +37,8 @@ const HUNGER: f32 = 4.2;
 const RAMP: f32 = 220.0;
 /// Share of it for a sister, which rests.
 const RESTING: f32 = 0.3;
-/// Size from which a cell can be changed first; from twice as large on once more.
-const FIRST_CHANGE: f32 = 1.5;
+/// Size from which a cell can be changed first; then at each doubling of its first size.
+const FIRST_CHANGE: f32 = 1.3;
 /// What each [`Change::Thrift`] leaves of it.
 const THRIFT: f32 = 0.9;
 
@@ -169,7 +169,7 @@ impl FoodChain {
     /// Size from which a cell can be changed once more.
     #[must_use]
     pub fn next_size(cell: OrganismView<'_>) -> f32 {
-        FIRST_CHANGE * 2.0_f32.powi(changes(cell) as i32)
+        FIRST_CHANGE.max((1_u64 << changes(cell).min(63)) as f32)
     }
 
     /// Time until a cell has nothing left to live on, at its present hunger, s.

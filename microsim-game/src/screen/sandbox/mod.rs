@@ -12,6 +12,7 @@ mod undo;
 use super::context::AppContext;
 use super::pick::builtin_title;
 use super::{Next, Overlay, Paused, Screen};
+use crate::clock::Tempo;
 use crate::draw::palette::HALO;
 use crate::input::{Action, Input, Move};
 use crate::sound::Cue;
@@ -27,10 +28,6 @@ use plots::Plots;
 use tools::Tools;
 use undo::Undo;
 
-/// How fast time can pass.
-const SPEEDS: [f32; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0];
-const USUAL_SPEED: usize = 3;
-
 /// A scene to meddle with.
 #[derive(Debug)]
 pub(super) struct Sandbox {
@@ -42,7 +39,7 @@ pub(super) struct Sandbox {
     plots: Plots,
     /// What was heard in this frame.
     heard: Vec<Cue>,
-    speed: usize,
+    tempo: Tempo,
     shows: Shows,
     is_paused: bool,
 }
@@ -62,8 +59,8 @@ impl Sandbox {
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
         let (viewer, panel) = (Viewer::new(stage.world(), camera), Menu::default());
         let (tools, undo, plots) = (Tools::default(), Undo::default(), Plots::default());
-        let (heard, speed) = (Vec::new(), USUAL_SPEED);
-        let mut sandbox = Self { stage, viewer, tools, undo, panel, plots, heard, speed, shows, is_paused: false };
+        let (heard, tempo) = (Vec::new(), Tempo::default());
+        let mut sandbox = Self { stage, viewer, tools, undo, panel, plots, heard, tempo, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
         sandbox
     }
@@ -71,7 +68,7 @@ impl Sandbox {
     /// The scene from its beginning.
     fn restart(&mut self, context: &mut AppContext) {
         match self.stage.again() {
-            Ok(stage) => *self = Self { shows: self.shows, speed: self.speed, ..Self::new(stage, context) },
+            Ok(stage) => *self = Self { shows: self.shows, tempo: self.tempo, ..Self::new(stage, context) },
             Err(problem) => context.tell(problem),
         }
     }
@@ -118,9 +115,7 @@ impl Sandbox {
         self.shows.panel ^= input.presses(Action::Panel);
         self.shows.anatomy ^= input.presses(Action::DebugView);
         self.shows.plots ^= input.presses(Action::Plots);
-        let faster = usize::from(input.presses(Action::Faster));
-        let slower = usize::from(input.presses(Action::Slower));
-        self.speed = (self.speed + faster).saturating_sub(slower).min(SPEEDS.len() - 1);
+        self.tempo = self.tempo.changed(input.presses(Action::Faster), input.presses(Action::Slower));
         if input.presses(Action::Step) {
             self.is_paused = true;
             self.step();
@@ -140,7 +135,7 @@ impl Sandbox {
         }
         let Self { tools, heard, .. } = self;
         heard.clear();
-        self.viewer.run(context.pace, SPEEDS[self.speed], &mut self.stage, |stage| {
+        self.viewer.run(context.pace, self.tempo.factor(), &mut self.stage, |stage| {
             let world = tools.step(stage);
             heard.extend(world.events().iter().filter_map(|event| Cue::of(event, None)));
             world
@@ -170,8 +165,8 @@ impl Sandbox {
         if self.is_paused {
             parts.push(words::text(Key::SandboxPaused).to_owned());
         }
-        if SPEEDS[self.speed] != 1.0 {
-            parts.push(speed_label(self.speed));
+        if self.tempo != Tempo::default() {
+            parts.push(self.tempo.to_string());
         }
         if self.shows.anatomy {
             parts.extend(self.counts());
@@ -182,11 +177,6 @@ impl Sandbox {
         let text = fitting(&parts, |text| pen.width(TextSize::Small, text) <= width);
         pen.label(Vec2::new(0.4 * line, 0.8 * line), TextSize::Small, Align::Left, HALO, &text);
     }
-}
-
-/// How fast time passes.
-fn speed_label(speed: usize) -> String {
-    format!("{} x", words::shortest(SPEEDS[speed]))
 }
 
 /// How long a step took.

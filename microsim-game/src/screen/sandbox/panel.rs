@@ -2,8 +2,8 @@
 
 use super::super::context::AppContext;
 use super::super::{Next, Overlay, Paused};
+use super::Sandbox;
 use super::tools::Tool;
-use super::{SPEEDS, Sandbox, speed_label};
 use crate::ui::font::TextSize;
 use crate::ui::menu::{MenuChoice, MenuItem, MenuLayout};
 use crate::ui::pen::Pen;
@@ -35,7 +35,7 @@ pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
         MenuItem::new(Key::PanelUndo),
         MenuItem::new(if sandbox.is_paused { Key::PauseGoOn } else { Key::ActionPause }),
         MenuItem::new(Key::ActionStep),
-        MenuItem::with(Key::PanelSpeed, speed_label(sandbox.speed)),
+        MenuItem::with(Key::PanelSpeed, sandbox.tempo.to_string()),
         MenuItem::switch(Key::ActionDebugView, sandbox.shows.anatomy),
         MenuItem::switch(Key::ActionPlots, sandbox.shows.plots),
         MenuItem::new(Key::PauseRestart),
@@ -62,10 +62,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut Ap
             sandbox.is_paused = true;
             sandbox.step();
         }
-        SPEED => {
-            let count = SPEEDS.len();
-            sandbox.speed = (sandbox.speed + if is_back { count - 1 } else { 1 }) % count;
-        }
+        SPEED => sandbox.tempo = sandbox.tempo.next(is_back),
         ANATOMY => sandbox.shows.anatomy ^= true,
         PLOTS => sandbox.shows.plots ^= true,
         RESTART => sandbox.restart(context),
