@@ -10,16 +10,19 @@ use glam::Vec2;
 
 /// Overlap with the membrane up to which prey counts as inside, as a share of a node's radius.
 const OVERLAP: f32 = 0.25;
-/// Share of the distance at which prey counts as inside at which a cell counts as outside: so far from the membrane its own does not
-/// slip to the other side when the gate closes.
+/// Share of the distance at which prey counts as inside at which it counts as outside: so far from the membrane a cell's own does not
+/// slip to the other side when the gate closes, and a disc in a narrow fold does not tear the fold's sides through each other.
 const OUTSIDE: f32 = 0.5;
-/// Time after which prey that is still between both sides is moved to one of them, in time limits.
+/// Time after which prey that is still between both sides is moved to one of them, in time limits, and the share of its distance from
+/// the membrane that it needs there: pressed into a fold it would tear the membrane's sides through each other.
 const PLACED_AFTER: f32 = 2.0;
+const ROOM: f32 = 0.75;
 
 impl World {
     /// Widens the gate to the nodes near the prey and returns the prey's side. At the time limit prey whose centre is outside
-    /// is expelled; at twice the time limit all of the prey is moved to the side of its centre. A cell, whose content would not stay
-    /// in its membrane, is not moved, but drawn in or driven out as at the time limit, from one time limit to the next.
+    /// is expelled; from twice the time limit on all of the prey is moved to that side as soon as there is room for it. Until then, and
+    /// if it is a cell, whose content would not stay in its membrane, it is drawn in or driven out, as its centre says at each multiple
+    /// of the time limit.
     pub(super) fn advance_gate(
         &mut self,
         id: OrganismId,
@@ -35,38 +38,36 @@ impl World {
         if side != PreySide::Between || elapsed < params.time_limit {
             return side;
         }
-        if self.organisms.get(meal.prey).is_some_and(Organism::is_cell) {
-            if is_time(elapsed, self.config.dt, params.time_limit) {
-                let centre = self.centroid(meal.prey);
-                meal.is_expelled = centre.is_some_and(|centre| !contains_point(&outline, centre));
-            }
-            return side;
-        }
-        if !meal.is_expelled && elapsed - self.config.dt < params.time_limit {
-            let centre = self.organisms.get(meal.prey).map(|prey| self.centre_of(prey));
+        let is_cell = self.organisms.get(meal.prey).is_some_and(Organism::is_cell);
+        if is_time(elapsed, self.config.dt, params.time_limit) {
+            let of_disc = || self.organisms.get(meal.prey).map(|prey| self.centre_of(prey));
+            let centre = if is_cell { self.centroid(meal.prey) } else { of_disc() };
             meal.is_expelled = centre.is_some_and(|centre| !contains_point(&outline, centre));
         }
-        if elapsed < PLACED_AFTER * params.time_limit {
+        if is_cell || elapsed < PLACED_AFTER * params.time_limit {
             return side;
         }
-        self.place_prey(meal.prey, !meal.is_expelled, &outline, clearance);
-        if meal.is_expelled { PreySide::Outside } else { PreySide::Inside }
+        match self.place_prey(meal.prey, !meal.is_expelled, &outline, clearance) {
+            false => side,
+            true if meal.is_expelled => PreySide::Outside,
+            true => PreySide::Inside,
+        }
     }
 
-    /// Moves all discs of prey to one side of an outline, each to the nearest point there.
-    fn place_prey(&mut self, prey: OrganismId, inside: bool, outline: &[Vec2], clearance: f32) {
-        for i in self.discs_of(prey).collect::<Vec<_>>() {
-            let at = self.particles.position(i);
-            let (edge, outwards) = nearest_edge(outline, at);
-            let distance = self.particles.radius[i] + clearance;
-            let is_there = contains_point(outline, at) == inside && (at - edge).length() >= distance;
-            if !is_there {
-                let by = edge + outwards * if inside { -distance } else { distance } - at;
-                shift(&mut self.particles, i, by);
-                self.particles.prev_x[i] += by.x;
-                self.particles.prev_y[i] += by.y;
-            }
+    /// Moves all discs of prey to one side of an outline, each to the nearest point there, if all have room.
+    fn place_prey(&mut self, prey: OrganismId, inside: bool, outline: &[Vec2], clearance: f32) -> bool {
+        let discs: Vec<usize> = self.discs_of(prey).collect();
+        let ways = discs.iter().map(|&i| {
+            let (at, distance) = (self.particles.position(i), self.particles.radius[i] + clearance);
+            way_to_side(outline, at, distance, inside)
+        });
+        let Some(ways) = ways.collect::<Option<Vec<Vec2>>>() else { return false };
+        for (i, by) in discs.into_iter().zip(ways).filter(|(_, by)| *by != Vec2::ZERO) {
+            shift(&mut self.particles, i, by);
+            self.particles.prev_x[i] += by.x;
+            self.particles.prev_y[i] += by.y;
         }
+        true
     }
 
     /// Adds the nodes near the prey to the gate: prey may slide along the membrane.
@@ -110,7 +111,7 @@ impl World {
             let distance = || (nearest_edge(outline, position).0 - position).length();
             let needed = self.particles.radius[i] + clearance;
             inside &= is_within && distance() >= needed;
-            outside &= !is_within && (!prey.is_cell() || distance() >= OUTSIDE * needed);
+            outside &= !is_within && distance() >= OUTSIDE * needed;
         }
         match (inside, outside) {
             (true, _) => PreySide::Inside,
@@ -160,11 +161,23 @@ fn nearest_edge(outline: &[Vec2], point: Vec2) -> (Vec2, Vec2) {
     (best.1, best.2)
 }
 
+/// The way from a point to the nearest one on one side of an outline, so far from its edges; `None` where another edge leaves no room.
+fn way_to_side(outline: &[Vec2], at: Vec2, distance: f32, inside: bool) -> Option<Vec2> {
+    let is_there =
+        |at, distance| contains_point(outline, at) == inside && (nearest_edge(outline, at).0 - at).length() >= distance;
+    if is_there(at, distance) {
+        return Some(Vec2::ZERO);
+    }
+    let (edge, outwards) = nearest_edge(outline, at);
+    let place = edge + outwards * if inside { -distance } else { distance };
+    is_there(place, ROOM * distance).then_some(place - at)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::capability::phagocytosis::{IngestionWay, MealPhase, PreyClass};
-    use crate::{AmoeboidCellSpec, Placement, RigidCellSpec, WorldConfig};
+    use crate::{AgarSpec, AmoeboidCellSpec, Placement, RigidCellSpec, WorldConfig};
 
     #[test]
     fn prey_whose_centre_is_outside_at_the_time_limit_is_expelled() {
@@ -199,5 +212,39 @@ mod tests {
         ] {
             assert_eq!(nearest_edge(&square, point), (edge, out), "{point}");
         }
+    }
+
+    #[test]
+    fn prey_that_the_membrane_still_presses_is_on_neither_side() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
+        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(120.0, 45.0)).unwrap();
+        let outline = world.outline_of(world.organisms.get(cell).unwrap());
+        let (edge, radius) = (outline.iter().map(|at| at.x).fold(0.0, f32::max), AgarSpec::default().radius);
+        let mut side = |off: f32| {
+            let by = Vec2::new(edge + off - world.centroid(prey).unwrap().x, 0.0);
+            world.discs_of(prey).collect::<Vec<_>>().into_iter().for_each(|i| shift(&mut world.particles, i, by));
+            world.side_of_prey(prey, &outline, 0.3)
+        };
+        let needed = radius + 0.3;
+        let sides = [0.1, 0.4 * needed, 0.6 * needed, -0.5 * needed, -1.1 * needed].map(&mut side);
+        assert_eq!(
+            sides,
+            [PreySide::Between, PreySide::Between, PreySide::Outside, PreySide::Between, PreySide::Inside]
+        );
+    }
+
+    #[test]
+    fn nothing_is_moved_into_a_fold_that_leaves_no_room() {
+        // A square with a fold from above, 1 wide and 8 deep.
+        let outline =
+            [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.5, 10.0), (5.5, 2.0), (4.5, 2.0), (4.5, 10.0), (0.0, 10.0)];
+        let outline = outline.map(|(x, y)| Vec2::new(x, y));
+        let way = |x: f32, y: f32, inside| way_to_side(&outline, Vec2::new(x, y), 1.0, inside);
+        assert_eq!(way(4.5, 6.0, false), None, "the other side of the fold is too near");
+        assert_eq!(way(4.5, 6.0, true), Some(Vec2::new(-1.0, 0.0)));
+        assert_eq!(way(0.2, 5.0, false), Some(Vec2::new(-1.2, 0.0)));
+        assert_eq!(way(5.0, 1.5, true), None, "between the fold and the lower edge");
+        assert_eq!([way(2.0, 5.0, true), way(-2.0, 5.0, false)], [Some(Vec2::ZERO); 2], "it is there");
     }
 }
