@@ -8,6 +8,8 @@
 
 mod actuation;
 mod arena;
+#[cfg(any(feature = "microscope", feature = "scenario"))]
+mod bare_text;
 mod behavior;
 mod capability;
 mod chemical;

@@ -1,10 +1,11 @@
 //! What records the image: film with grain, weave and flicker, or a camera.
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
 use super::maths::{larger, mix};
 use super::noise::{HashRng, grain, hash, shift, three_grains, wobble};
 use super::optics::Mode;
 use super::raster::gaussian;
+use crate::bare_text::bare_text;
 use crate::error::{Error, in_range};
 use glam::{IVec2, Vec2};
 
@@ -181,7 +182,7 @@ const UNEVEN: f32 = 4.0;
 pub(super) const MASK: f32 = 1.3;
 
 pub(super) const GLSL: Glsl = Glsl {
-    source: glsl_text!("film.glsl"),
+    source: bare_text!("film.glsl", "//"),
     constants: &[
         ("FINE", &[FINE]),
         ("COARSE", &[COARSE]),

@@ -1,8 +1,9 @@
 //! Small functions that pictures are made of. Results have the same bits on every platform.
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
+use crate::bare_text::bare_text;
 
-pub(super) const GLSL: Glsl = Glsl { source: glsl_text!("maths.glsl"), constants: &[] };
+pub(super) const GLSL: Glsl = Glsl { source: bare_text!("maths.glsl", "//"), constants: &[] };
 
 pub(super) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }

@@ -1,11 +1,12 @@
 //! What light meets: how much a place of the specimen delays it and how much of what dyes it there is.
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
 use super::raster::PixelGrid;
+use crate::bare_text::bare_text;
 pub(super) use crate::look::Matter;
 use glam::Vec2;
 
-pub(super) const GLSL: Glsl = Glsl { source: glsl_text!("matter.glsl"), constants: &[] };
+pub(super) const GLSL: Glsl = Glsl { source: bare_text!("matter.glsl", "//"), constants: &[] };
 
 /// Matter on a grid.
 #[derive(Clone, Debug)]

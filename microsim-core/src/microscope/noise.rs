@@ -3,11 +3,12 @@
 //! What pixels are asked for comes from one table of random bytes, which repeats itself: a graphics card, which may know no
 //! integers, holds it as a texture. A seed is a shift of the table.
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
+use crate::bare_text::bare_text;
 use glam::{IVec2, Vec2};
 
 pub(super) const GLSL: Glsl = Glsl {
-    source: glsl_text!("noise.glsl"),
+    source: bare_text!("noise.glsl", "//"),
     constants: &[("TABLE", &[SIDE as f32]), ("NEXT_OCTAVE", &[NEXT_OCTAVE.x as f32, NEXT_OCTAVE.y as f32])],
 };
 

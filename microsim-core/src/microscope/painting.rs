@@ -7,12 +7,13 @@
 //!   particles, blurred (3.2.2).
 //! - Background: sprites at points that wander (3.2.3).
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
 use super::maths::{mix, smoothstep};
 use super::noise::{HashRng, octaves, scramble, shift_of, wobble};
 use super::raster::PixelGrid;
 use super::recipe::{DrawList, Program, QUAD};
 use super::specimen::chamber::obstacle_map;
+use crate::bare_text::bare_text;
 use crate::collision::obstacle::Obstacle;
 use crate::geometry::{centroid, triangulate, unit_vector};
 use crate::look::{ImageLook, PaintedLook};
@@ -34,7 +35,7 @@ const PAGE: Vec3 = Vec3::new(0.66, 0.76, 0.74);
 const PAGE_SEED: u32 = 1;
 
 pub(super) const GLSL: Glsl =
-    Glsl { source: glsl_text!("painting.glsl"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
+    Glsl { source: bare_text!("painting.glsl", "//"), constants: &[("PAGE_COLOUR", &[PAGE.x, PAGE.y, PAGE.z])] };
 
 /// A painted picture: primitives that cover each other, the lowest first.
 #[derive(Clone, Debug)]

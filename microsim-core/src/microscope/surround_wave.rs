@@ -1,11 +1,12 @@
 //! The surround wave: what the wave behind the specimen is without its details. Phase contrast and dark field set it
 //! against the wave itself; how far it reaches is the width of the halo. The haze of fluorescence reaches as far.
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
 use super::maths::larger;
 use super::matter::MatterRaster;
 use super::raster::{PixelGrid, bilinear, blur, gaussian};
 use super::wave;
+use crate::bare_text::bare_text;
 use glam::Vec2;
 
 /// Standard deviations of the two normal distributions by which the wave is blurred, micrometres, and the share of the
@@ -18,7 +19,7 @@ const NEAR_SHARE: f32 = 0.52;
 const PIXEL: f32 = 0.33;
 
 pub(super) const GLSL: Glsl =
-    Glsl { source: glsl_text!("surround_wave.glsl"), constants: &[("NEAR_SHARE", &[NEAR_SHARE])] };
+    Glsl { source: bare_text!("surround_wave.glsl", "//"), constants: &[("NEAR_SHARE", &[NEAR_SHARE])] };
 
 /// Pixels on which the surround wave of a picture is computed: coarse ones, of at least a side, and some beyond the picture.
 pub(super) fn grid_around(picture: &PixelGrid, least: f32) -> PixelGrid {

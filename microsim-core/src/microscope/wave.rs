@@ -1,14 +1,15 @@
 //! The wave of light behind the specimen.
 
-use super::glsl::{Glsl, glsl_text};
+use super::glsl::Glsl;
 use super::matter::Matter;
+use crate::bare_text::bare_text;
 use glam::Vec2;
 
 /// Optical density of haemoglobin in green light where a red cell is thickest.
 const GREEN_DENSITY: f32 = 0.42;
 
 pub(super) const GLSL: Glsl =
-    Glsl { source: glsl_text!("wave.glsl"), constants: &[("GREEN_DENSITY", &[GREEN_DENSITY])] };
+    Glsl { source: bare_text!("wave.glsl", "//"), constants: &[("GREEN_DENSITY", &[GREEN_DENSITY])] };
 
 /// The wave behind some matter, relative to the one behind nothing: amplitude and phase as a vector.
 pub(super) fn behind(matter: Matter) -> Vec2 {

@@ -1,7 +1,8 @@
 //! The GLSL of each program, and the uniforms and textures that it is fed.
 
+use crate::bare_text::bare_text;
 use crate::microscope::film::SHADOWS;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::glsl::Glsl;
 use crate::microscope::optics::{Shader, sampler};
 use crate::microscope::recipe::{GlslSource, Program};
 use crate::microscope::specimen::{amoeboid, background, chamber, distance_field, round, spot, thread};
@@ -47,9 +48,9 @@ const FILM: Uniforms = &[
     ("weights", 1, LONGEST),
 ];
 
-const SCREEN: Glsl = Glsl { source: glsl_text!("screen.glsl"), constants: &[] };
-const BOX: Glsl = Glsl { source: glsl_text!("box.glsl"), constants: &[] };
-const SOFTEN: Glsl = Glsl { source: glsl_text!("soften.glsl"), constants: &[] };
+const SCREEN: Glsl = Glsl { source: bare_text!("screen.glsl", "//"), constants: &[] };
+const BOX: Glsl = Glsl { source: bare_text!("box.glsl", "//"), constants: &[] };
+const SOFTEN: Glsl = Glsl { source: bare_text!("soften.glsl", "//"), constants: &[] };
 
 impl Program {
     fn uniforms(self) -> Vec<(&'static str, usize, usize)> {

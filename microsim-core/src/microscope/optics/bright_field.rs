@@ -5,7 +5,8 @@
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
@@ -22,7 +23,7 @@ const MOTTLE: [f32; 2] = [0.024, 0.9];
 const BACKGROUND: f32 = 0.60;
 
 const GLSL: Glsl = Glsl {
-    source: glsl_text!("bright_field.glsl"),
+    source: bare_text!("bright_field.glsl", "//"),
     constants: &[
         ("DEFOCUS", &[DEFOCUS]),
         ("STEP", &[STEP]),

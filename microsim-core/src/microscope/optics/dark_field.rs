@@ -2,7 +2,8 @@
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::surround_wave::Surround;
 
 const GAIN: f32 = 2.2;
@@ -11,7 +12,7 @@ const LEAK: f32 = 0.006;
 const GAMMA: f32 = 1.0;
 
 const GLSL: Glsl = Glsl {
-    source: glsl_text!("dark_field.glsl"),
+    source: bare_text!("dark_field.glsl", "//"),
     constants: &[("GAIN", &[GAIN]), ("LEAK", &[LEAK]), ("GAMMA", &[GAMMA])],
 };
 

@@ -5,7 +5,8 @@
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use glam::Vec2;
 
 /// Half the shear, micrometres: towards the upper left, where the light seems to come from.
@@ -16,7 +17,7 @@ const BIAS: f32 = 0.72;
 const BACKGROUND: f32 = 0.43;
 
 const GLSL: Glsl = Glsl {
-    source: glsl_text!("dic.glsl"),
+    source: bare_text!("dic.glsl", "//"),
     constants: &[("SHEAR", &[SHEAR.x, SHEAR.y]), ("BIAS", &[BIAS]), ("BACKGROUND", &[BACKGROUND])],
 };
 

@@ -2,7 +2,8 @@
 
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::mix;
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
@@ -24,7 +25,7 @@ const CONDENSED: f32 = 0.5;
 const SATURATION: f32 = 1.0;
 
 const GLSL: Glsl = Glsl {
-    source: glsl_text!("fluorescence.glsl"),
+    source: bare_text!("fluorescence.glsl", "//"),
     constants: &[
         ("DARK", &DARK),
         ("HAZE", &[HAZE]),

@@ -7,7 +7,8 @@
 
 use super::mode::{Mode, Optics, Shader, grey};
 use super::sampler::Sampler;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::larger;
 use crate::microscope::surround_wave::Surround;
 
@@ -21,7 +22,7 @@ const LEAK: f32 = 0.06;
 /// How a camera's tone curve bends light that is brighter than the background.
 const SHOULDER: f32 = 0.55;
 
-const SOURCE: &str = glsl_text!("phase_contrast.glsl");
+const SOURCE: &str = bare_text!("phase_contrast.glsl", "//");
 const POSITIVE_GLSL: Glsl = Glsl {
     source: SOURCE,
     constants: &[

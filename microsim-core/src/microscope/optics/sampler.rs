@@ -1,6 +1,7 @@
 //! What an image is made of: matter, waves and slopes at a pixel.
 
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::mix;
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::raster::bilinear;
@@ -8,7 +9,7 @@ use crate::microscope::surround_wave::SurroundWave;
 use crate::microscope::wave;
 use glam::{IVec2, Vec2};
 
-pub(in crate::microscope) const GLSL: Glsl = Glsl { source: glsl_text!("sampler.glsl"), constants: &[] };
+pub(in crate::microscope) const GLSL: Glsl = Glsl { source: bare_text!("sampler.glsl", "//"), constants: &[] };
 
 /// Farthest that an image looks to the side, micrometres.
 pub(in crate::microscope) const REACH: f32 = 0.36;

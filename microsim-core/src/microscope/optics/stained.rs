@@ -6,7 +6,8 @@
 
 use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::larger;
 use crate::microscope::matter::Matter;
 use crate::microscope::noise::{octaves, shift_of};
@@ -45,7 +46,7 @@ const DRY: [f32; 2] = [0.7, 0.3];
 const PRESSED: [f32; 2] = [1.1, 0.75];
 
 const GLSL: Glsl = Glsl {
-    source: glsl_text!("stained.glsl"),
+    source: bare_text!("stained.glsl", "//"),
     constants: &[
         ("BACKGROUND", &BACKGROUND),
         ("HAEMOGLOBIN", &HAEMOGLOBIN),

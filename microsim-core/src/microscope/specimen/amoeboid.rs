@@ -11,9 +11,10 @@ use super::distance_field::{DistanceField, united};
 use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
+use crate::bare_text::bare_text;
 use crate::geometry::{centroid, direction_or, rotate, signed_area, unit_vector};
 use crate::look::{AmoeboidLook, SpotShape};
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, octaves, scramble, shift_of, wobble};
@@ -65,7 +66,7 @@ const DYED: f32 = 0.2;
 pub(in crate::microscope) const LOBES: usize = 10;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: glsl_text!("amoeboid.glsl"),
+    source: bare_text!("amoeboid.glsl", "//"),
     constants: &[
         ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),

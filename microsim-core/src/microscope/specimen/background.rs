@@ -3,9 +3,10 @@
 
 use super::spot::Spot;
 use super::thread::Thread;
+use crate::bare_text::bare_text;
 use crate::geometry::{rotate, unit_vector};
 use crate::look::SpotShape;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};
@@ -57,7 +58,7 @@ const COARSE: f32 = 0.035;
 const COARSE_SIZE: f32 = 15.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: glsl_text!("background.glsl"),
+    source: bare_text!("background.glsl", "//"),
     constants: &[
         ("FINE", &[FINE]),
         ("FINE_SIZE", &[FINE_SIZE]),

@@ -3,9 +3,10 @@
 use super::background::strewn;
 use super::distance_field::DistanceField;
 use super::spot::Spot;
+use crate::bare_text::bare_text;
 use crate::collision::obstacle::Obstacle;
 use crate::look::SpotShape;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{octaves, shift_of};
@@ -38,7 +39,7 @@ const TEXTURE: f32 = 0.03;
 const TEXTURE_SIZE: f32 = 4.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: glsl_text!("chamber.glsl"),
+    source: bare_text!("chamber.glsl", "//"),
     constants: &[
         ("POLYMER", &[POLYMER.phase, POLYMER.haemoglobin, POLYMER.cytoplasm, POLYMER.nucleus]),
         ("RIM", &[RIM]),

@@ -1,12 +1,13 @@
 //! Signed distances from an outline.
 
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{larger, mix, smaller};
 use crate::microscope::raster::blur;
 use crate::microscope::recipe::Map;
 use glam::Vec2;
 
-pub(in crate::microscope) const GLSL: Glsl = Glsl { source: glsl_text!("distance_field.glsl"), constants: &[] };
+pub(in crate::microscope) const GLSL: Glsl = Glsl { source: bare_text!("distance_field.glsl", "//"), constants: &[] };
 
 /// Cells along each side of the squares that distances are measured in, and of the smallest ones.
 const SQUARE: usize = 32;

@@ -9,9 +9,10 @@ use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
 use super::{individual, uneven_outline};
+use crate::bare_text::bare_text;
 use crate::geometry::{direction_or, rotate, unit_vector};
 use crate::look::{Cilia, Pellicle, Profile, RoundLook, SpotShape};
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, octaves, shift_of, wobble};
@@ -48,7 +49,7 @@ const SPOKES: [f32; 2] = [24.0, 160.0];
 const SPOKES_PER_ROOT: f32 = 10.0;
 
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
-    source: glsl_text!("round.glsl"),
+    source: bare_text!("round.glsl", "//"),
     constants: &[
         ("TURN", &[TAU]),
         ("EDGE", &[EDGE]),

@@ -1,14 +1,15 @@
 //! Small round things: granules, vacuoles, dust.
 
+use crate::bare_text::bare_text;
 use crate::look::SpotShape;
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::Vec2;
 
 pub(in crate::microscope) const GLSL: Glsl =
-    Glsl { source: glsl_text!("spot.glsl"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
+    Glsl { source: bare_text!("spot.glsl", "//"), constants: &[("DAMPING", &[DAMPING]), ("LAG", &[LAG])] };
 
 /// Decay of the rings of a thing out of focus, and the phase with which they begin.
 const DAMPING: f32 = 1.25;

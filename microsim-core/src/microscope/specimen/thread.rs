@@ -1,12 +1,13 @@
 //! Thin straight threads: fibres, cilia, canals.
 
-use crate::microscope::glsl::{Glsl, glsl_text};
+use crate::bare_text::bare_text;
+use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::Vec2;
 
-pub(in crate::microscope) const GLSL: Glsl = Glsl { source: glsl_text!("thread.glsl"), constants: &[] };
+pub(in crate::microscope) const GLSL: Glsl = Glsl { source: bare_text!("thread.glsl", "//"), constants: &[] };
 
 /// A thin straight thread.
 #[derive(Clone, Copy, Debug)]
