@@ -138,7 +138,9 @@ fn draw_coat(pen: &mut Pen, outline: &[Vec2], middle: Vec2, out: f32, width: f32
 /// waits.
 #[must_use]
 pub fn summary(time: f32, [size, next]: [f32; 2], sisters: usize) -> String {
-    let (size, next) = (words::number(size, 1), words::number(next, usize::from(next.fract() > 0.0)));
+    // What is shown is reached: sizes are cut off.
+    let (size, next) =
+        (words::number((10.0 * size).floor() / 10.0, 1), words::number(next, usize::from(next.fract() > 0.0)));
     let args = [("time", (time as u32).into()), ("size", (&size).into()), ("next", (&next).into())];
     let lived = words::text_with(Key::HudLived, &args);
     if sisters == 0 {

@@ -10,6 +10,8 @@ use microsim_core::glam::Vec2;
 
 /// Width of the rims of others.
 pub const OTHERS: f32 = 0.6;
+/// Width of the rim of a cell that is bitten, lines of text.
+pub const BITTEN: f32 = 0.24;
 
 /// Draws the rim in the colour of the player; of several players also a tint of it all over the cell, and the number. The rim
 /// is `width` times as wide as that of the own cell usually is.

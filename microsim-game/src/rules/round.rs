@@ -8,7 +8,7 @@ use super::threat;
 use crate::sound::Cue;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::{Built, Scenario};
-use microsim_core::{Inputs, Intent, Kind, MealPhase, OrganismId, World};
+use microsim_core::{Event, Inputs, Intent, Kind, MealPhase, OrganismId, World};
 use std::num::NonZeroU32;
 
 /// Steps between two digests of a recorded round.
@@ -192,6 +192,14 @@ impl Round {
             // Refused if it is gone.
             let _ = run.world.divide(seat.cell);
         }
+    }
+
+    /// Whether a player's cell was told to divide in the last step and cannot.
+    #[must_use]
+    pub fn is_division_refused(&self) -> bool {
+        let is_own = |cell: &OrganismId| self.players().any(|own| own == *cell);
+        let events = self.world().events().iter();
+        events.filter(|event| matches!(event, Event::DivisionRefused { organism, .. } if is_own(organism))).count() > 0
     }
 
     /// What those who play hear of the last step: what their cells do, the last seconds, and the end.

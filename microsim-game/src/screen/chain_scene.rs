@@ -10,7 +10,7 @@ use crate::rules::round::Round;
 use crate::rules::threat::engulfers;
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
-use microsim_core::{OrganismId, View};
+use microsim_core::{OrganismId, OrganismView, View};
 
 /// Time until the cell starves that fills the bar, s.
 const FULL_RESERVE: f32 = 60.0;
@@ -44,7 +44,9 @@ pub(super) fn ghost_advice(time: f64) -> Option<String> {
 pub(super) fn status(round: &Round, cell: OrganismId) -> Option<(String, [f32; 2])> {
     let (chain, world) = (round.chain()?, round.world());
     let cell = world.view().organism(cell)?;
-    let line = world.view().organisms().filter(|other| line_of(*other) == line_of(cell)).count();
+    // Before the first step nobody is of a line.
+    let is_of_line = |other: &OrganismView<'_>| line_of(cell).is_some() && line_of(*other) == line_of(cell);
+    let line = world.view().organisms().filter(is_of_line).count();
     let time = world.time() as f32;
     let reserve = chain.reserve(cell, time).min(FULL_RESERVE);
     let sizes = [chain.size(cell), FoodChain::next_size(cell)];
@@ -132,7 +134,7 @@ mod tests {
     fn the_status_tells_from_which_size_on_the_body_changes() {
         let round = Round::new(&Scenario::parse(TEXT, &[]).unwrap()).unwrap();
         let (told, _) = status(&round, round.player()).unwrap();
-        assert!(told.starts_with("Lived 0 s   Size 1.0, new body at 1.3"), "{told}");
+        assert_eq!(told, "Lived 0 s   Size 1.0, new body at 1.3");
     }
 
     #[test]

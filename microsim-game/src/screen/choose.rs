@@ -22,7 +22,7 @@ pub(super) struct Choose {
 
 impl Choose {
     pub(super) fn new(offer: [Change; 3], played: Paused) -> Self {
-        let items = offer.map(|change| MenuItem::new(change.words()[0]));
+        let items = offer.map(|change| MenuItem::new(change.words().map(words::text).join(": ")));
         Self { page: MenuPage::new(Key::ChangeHeading, items.into()), offer, played, since: 0.0, has_let_go: false }
     }
 }
@@ -51,8 +51,6 @@ impl Screen for Choose {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        let note = self.offer.get(self.page.menu.focus()).map_or("", |change| words::text(change.words()[1]));
-        self.page.draw_note(&mut context.pen, note);
     }
 
     fn name(&self) -> String {

@@ -1,5 +1,6 @@
 //! What all screens share: the pen, the settings, the scores and the message.
 
+use super::photo_view::PhotoView;
 use super::{MainScreen, Paused};
 use crate::album::Album;
 use crate::camera::Camera;
@@ -10,6 +11,7 @@ use crate::guide;
 use crate::network::room::Room;
 use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
+use crate::rules::food_chain::feats::Feats;
 use crate::rules::lesson::Lessons;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
@@ -66,23 +68,6 @@ fn show_language(language: &'static Language) {
     }
 }
 
-/// What a photo shows of a scene: at first what is seen of it.
-#[derive(Clone, Debug, Default)]
-pub(super) struct PhotoView(Option<Camera>);
-
-impl PhotoView {
-    fn camera_from(&mut self, seen: &Camera) -> &Camera {
-        let camera = self.0.get_or_insert_with(|| seen.clone());
-        camera.resize(seen.screen());
-        camera
-    }
-
-    /// Its camera, once there is a picture.
-    pub(super) fn camera(&mut self) -> Option<&mut Camera> {
-        self.0.as_mut()
-    }
-}
-
 /// What the command line says of playing over a network.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Party {
@@ -131,6 +116,8 @@ pub struct AppContext {
     pub game: GameChoice,
     /// A game that the player has opened beside it.
     pub(super) other_game: Option<GameChoice>,
+    /// The item of the title's menu that was chosen last.
+    pub(super) title_item: Option<usize>,
     /// What was opened last of the list of simulations.
     pub(super) picked: Option<SceneSource>,
     /// Scenario files that the player has named or dropped, for the list.
@@ -187,6 +174,7 @@ impl AppContext {
             time: 0.0,
             game,
             other_game: None,
+            title_item: None,
             picked: None,
             files,
             last_game,
@@ -246,6 +234,13 @@ impl AppContext {
     /// An article of the field guide, once its text is there.
     pub(super) fn article(&self, name: &str) -> Option<&'static Article> {
         articles::article(name, platform::words)
+    }
+
+    /// Notes what was reached in a life of the food chain that is left before its end.
+    pub(super) fn keep_feats(&mut self, feats: Feats) {
+        if let Err(error) = self.chain_records.add(feats, None, &self.store) {
+            self.tell_error(Key::LastGameUnkept, &error);
+        }
     }
 
     /// Plays what was heard in this frame, unless frames are made for pictures.
@@ -324,6 +319,13 @@ impl AppContext {
         self.save_settings();
         self.find(sight.name());
         self.tell(sight.title());
+    }
+
+    /// The way of looking from before a photo.
+    pub(super) fn put_back_sight(&mut self, sight: String, asked: Option<Sight>) {
+        (self.settings.sight, self.asked.sight) = (sight, asked);
+        self.scenery.take_heart();
+        self.save_settings();
     }
 
     /// More or less of the machine for pictures.

@@ -63,7 +63,7 @@ impl End {
     }
 
     fn draw_kinds(&self, pen: &mut Pen, top: f32) {
-        let (middle, line) = (0.25 * pen.screen().x, pen.line(TextSize::Body));
+        let (middle, line) = (0.28 * pen.screen().x, pen.line(TextSize::Body));
         for (k, (kind, entry)) in self.kinds.iter().enumerate() {
             let y = top + line * k as f32;
             let what = format!("{}: {}", plain_name(*kind), entry.count);
@@ -95,6 +95,7 @@ impl Screen for End {
         let pen = &mut context.pen;
         self.menu.draw_shade(pen);
         let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
+        EndMenu::draw_panel(pen, 0.86 * screen.x, [0.06 * screen.y, (MENU_TOP - 0.03) * screen.y]);
         let heading = Vec2::new(0.5 * screen.x, 0.09 * screen.y);
         pen.write(heading, TextSize::Large, Align::Centre, HALO, &self.heading);
         if let Some(place) = self.place {
@@ -110,7 +111,7 @@ impl Screen for End {
             pen.write(Vec2::new(0.5 * screen.x, first + small * k as f32), TextSize::Small, Align::Centre, HALO, text);
         }
         self.draw_kinds(pen, 0.28 * screen.y + line);
-        draw_table(pen, [0.74 * screen.x, 0.28 * screen.y], first - small, &self.best, self.place);
+        draw_table(pen, [0.71 * screen.x, 0.28 * screen.y], first - small, &self.best, self.place);
         self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
     }
 

@@ -5,6 +5,7 @@ use super::join::LONGEST;
 use super::page::draw_shade;
 use super::{MainScreen, Next, today};
 use crate::input::{Action, Input, Move};
+use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuChoice, MenuItem, MenuLayout};
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
@@ -62,6 +63,13 @@ impl EndMenu {
     /// Darkens the scene, more and more.
     pub(super) fn draw_shade(&self, pen: &mut Pen) {
         draw_shade(pen, (self.since / FADING).min(1.0));
+    }
+
+    /// Draws a panel behind text of this width, from one height to another.
+    pub(super) fn draw_panel(pen: &mut Pen, width: f32, [top, bottom]: [f32; 2]) {
+        let (middle, line) = (0.5 * pen.screen().x, pen.line(TextSize::Body));
+        let half = (0.5 * width + 0.8 * line).min(middle - 0.2 * line);
+        pen.panel(Vec2::new(middle - half, (top - 0.4 * line).max(0.0)), Vec2::new(middle + half, bottom + 0.2 * line));
     }
 
     pub(super) fn update(&mut self, input: &Input, context: &AppContext, layout: &MenuLayout) -> Option<EndChoice> {

@@ -141,6 +141,8 @@ impl Screen for FoodChainEnd {
         let layout = MenuLayout::middle(pen, MENU_TOP);
         let (lines, end) = lines_of(pen, &self.told, layout.corner.y);
         let down = 0.4 * (layout.corner.y - end).max(0.0);
+        let width = lines.iter().map(|(_, size, _, line)| pen.width(*size, line)).fold(0.0, f32::max);
+        EndMenu::draw_panel(pen, width, [TEXT_TOP * pen.screen().y + down, end + down]);
         for (y, size, colour, line) in lines {
             pen.write(Vec2::new(0.5 * pen.screen().x, y + down), size, Align::Centre, colour, &line);
         }

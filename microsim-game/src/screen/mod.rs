@@ -22,6 +22,7 @@ mod offer;
 mod page;
 mod pause;
 mod photo;
+mod photo_view;
 mod pick;
 mod play;
 mod quit;

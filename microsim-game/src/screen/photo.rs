@@ -1,9 +1,11 @@
 //! Photo mode: the scene that is stopped, without anything above it but a scale bar, to choose what a picture shows.
 
-use super::context::{AppContext, PhotoView};
+use super::context::AppContext;
+use super::photo_view::PhotoView;
 use super::{Next, Screen};
 use crate::draw::palette::{HALO, INK, fade};
 use crate::input::{Action, Input, Move};
+use crate::scenery::Sight;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::zoom_factor;
@@ -19,6 +21,8 @@ const SHIFT: f32 = 0.6;
 pub(super) struct Photo {
     /// The point of the room that follows the cursor while it is dragged.
     grip: Option<Vec2>,
+    /// The way of looking before, and the one asked for by the command line.
+    sight: (String, Option<Sight>),
 }
 
 impl Photo {
@@ -29,13 +33,15 @@ impl Photo {
         let [out, into, optics, picture] = keys.each_ref().map(Arg::from);
         let named = [("out", out), ("in", into), ("optics", optics), ("picture", picture)];
         context.tell(words::text_with(Key::PhotoHow, &named));
-        Self { grip: None }
+        Self { grip: None, sight: (context.settings.sight.clone(), context.asked.sight) }
     }
 }
 
 impl Screen for Photo {
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
         if input.step == Some(Move::Back) || input.presses(Action::Pause) {
+            let (sight, asked) = std::mem::take(&mut self.sight);
+            context.put_back_sight(sight, asked);
             return Next::Back;
         }
         let elapsed = context.pace.elapsed;

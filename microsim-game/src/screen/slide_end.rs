@@ -116,6 +116,11 @@ fn items(played: Paused, is_won: bool) -> Vec<Item> {
     items
 }
 
+/// A time in tenths of a second that it did not exceed: one that is shown as within a limit is.
+fn tenths(time: f32) -> String {
+    words::number((10.0 * time).ceil() / 10.0, 1)
+}
+
 fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
     let slide = slides::told(attempt.slide());
     let heading = |text| (TextSize::Large, HALO, doubted(text, is_mismatch));
@@ -126,7 +131,7 @@ fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
         let why = if attempt.is_lost() { Key::SlideEndTaken } else { Key::SlideEndLate };
         return vec![heading(words::text(why).to_owned()), left];
     };
-    let mut told = vec![heading(words::text_with(Key::SlideEndDone, &[("time", (&words::number(time, 1)).into())]))];
+    let mut told = vec![heading(words::text_with(Key::SlideEndDone, &[("time", (&tenths(time)).into())]))];
     let next = slide.stars.iter().rev().find(|longest| time > **longest);
     if let Some(longest) = next {
         told.push((
@@ -156,9 +161,12 @@ impl Screen for SlideEnd {
     fn draw(&mut self, context: &mut AppContext) {
         let pen = &mut context.pen;
         self.menu.draw_shade(pen);
-        let radius = 0.45 * pen.line(TextSize::Large);
+        let (radius, lines) = (0.45 * pen.line(TextSize::Large), self.lines(pen));
+        let width = lines.iter().map(|(_, size, _, line)| pen.width(*size, line)).fold(0.0, f32::max);
+        let bottom = end_of(pen, &lines);
+        EndMenu::draw_panel(pen, width, [0.09 * pen.screen().y - radius, bottom]);
         draw_stars(pen, Vec2::new(0.5, 0.09) * pen.screen(), radius, self.stars, READY);
-        for (at, size, colour, line) in self.lines(pen) {
+        for (at, size, colour, line) in lines {
             pen.write(at, size, Align::Centre, colour, &line);
         }
         let layout = self.layout(pen);

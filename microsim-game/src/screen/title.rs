@@ -68,7 +68,10 @@ impl Title {
         let goal = best.next_goal(Key::TitleGoal).filter(|_| best != Feats::default());
         let is_new = context.best_times.is_empty();
         let note = is_new.then(|| words::text(Key::TitleNew).to_owned()).or(goal);
-        Self { backdrop: Backdrop::new(context.pen.screen()), menu: Menu::new(items), targets, note }
+        let mut menu = Menu::new(items);
+        // Who is new begins with the slides.
+        menu.set_focus(context.title_item.unwrap_or(usize::from(is_new)));
+        Self { backdrop: Backdrop::new(context.pen.screen()), menu, targets, note }
     }
 }
 
@@ -116,7 +119,10 @@ impl Screen for Title {
             return Next::Open(Overlay::Quit);
         }
         match self.menu.update(input, &MenuLayout::title(&context.pen)) {
-            Some(MenuChoice::Pick(item)) => self.targets[item].1(),
+            Some(MenuChoice::Pick(item)) => {
+                context.title_item = Some(item);
+                self.targets[item].1()
+            }
             _ => Next::Stay,
         }
     }

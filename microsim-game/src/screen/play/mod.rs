@@ -17,6 +17,7 @@ use crate::hud::{self, marks, own, places, tint};
 use crate::input::{Action, Input, Move};
 use crate::platform;
 use crate::rules::bot::Bot;
+use crate::rules::food_chain::feats::Feats;
 use crate::rules::ghost::Ghost;
 use crate::rules::hint::{Hints, taken_in};
 use crate::rules::lesson::FirstDeed;
@@ -66,16 +67,17 @@ pub(super) struct Play {
     has_begun: bool,
     /// How fast a replay goes.
     tempo: Tempo,
-    /// Where the own cell was last, and time since the round is over, s.
+    /// Where the own cell was last, what its status said, and time since the round is over, s.
     last_place: Vec2,
+    last_life: Option<(String, [f32; 2])>,
     over_for: f32,
     /// The player's best life in this water.
     ghost: Option<Ghost>,
     /// What is written on the keys that divide the cell and change the optics.
     divide_key: String,
     optics_key: String,
-    /// The keys that make a replay slower and faster.
-    tempo_keys: [String; 2],
+    /// The keys that make a replay slower and faster, and stop it.
+    tempo_keys: [String; 3],
 }
 
 impl Play {
@@ -91,7 +93,7 @@ impl Play {
         let digests = context.settings.digests(input);
         let speed = if self.has_begun { context.settings.pace() * self.tempo.factor() } else { 0.0 };
         let Self { round, viewer, gains, heard, hands, bot, ghost, .. } = self;
-        let (mut digested, mut meals) = (Vec::new(), Vec::new());
+        let (mut digested, mut meals, mut is_refused) = (Vec::new(), Vec::new(), false);
         heard.clear();
         viewer.run(context.pace, speed, round, |round| {
             let mut intents = hands.intents(round, goals, digests);
@@ -101,6 +103,7 @@ impl Play {
             round.step_all(&intents);
             ghost.iter_mut().for_each(Ghost::step);
             heard.extend(round.heard());
+            is_refused |= round.is_division_refused();
             gains.add(round.gains());
             let cells: Vec<OrganismId> = round.players().collect();
             meals.extend(taken_in(round.world(), &cells));
@@ -108,6 +111,9 @@ impl Play {
             round.world()
         });
         meals.iter().for_each(|&(at, half_extent)| self.pulses.take(at, half_extent));
+        if is_refused {
+            context.tell(words::text(Key::HudUndivided));
+        }
         let is_feast = meals.iter().any(|(_, half_extent)| is_large(*half_extent));
         if is_feast && self.two.is_none() && context.motion().is_some() {
             self.follow.nudge(&mut self.viewer, context.pen.screen());
@@ -142,10 +148,19 @@ impl Play {
         chain_scene::seen(&self.round, Some(self.own)).unwrap_or(self.round.player())
     }
 
+    /// Keeps what was reached so far of the goals of the food chain: the life may be left.
+    fn keep_feats(&self, context: &mut AppContext) {
+        let life = self.round.result().life.filter(|_| !self.round.is_replay() && !context.pace.is_exact);
+        if let Some(life) = life {
+            context.keep_feats(Feats { time: 0, ..life.feats });
+        }
+    }
+
     /// Whether the round is over, and what happened last was seen before the end covers it.
     fn has_ended(&mut self, context: &AppContext) -> bool {
         if !self.round.is_over() {
             self.last_place = self.round.world().centroid(self.seen()).unwrap_or(self.last_place);
+            self.last_life = chain_scene::status(&self.round, self.seen());
             return false;
         }
         let is_gone = self.round.world().centroid(self.seen()).is_none();
@@ -175,6 +190,9 @@ impl Play {
             if let Some(cell) = view.organism(id) {
                 let width = if k == self.own { self.pulses.rim() } else { own::OTHERS };
                 own::draw_own(pen, style, cell, (!is_alone).then_some(k + 1), width);
+                if self.round.chain().is_some_and(|chain| chain.is_bitten(id)) {
+                    own::draw_rim(pen, style, cell, ALERT, own::BITTEN);
+                }
             }
         }
         self.pulses.draw(pen, style);
@@ -206,7 +224,10 @@ impl Screen for Play {
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
-        if input.has_lost_focus || input.presses(Action::Pause) || input.step == Some(Move::Back) {
+        let stands = self.round.is_replay() && input.presses(Action::Pause);
+        self.has_begun ^= stands;
+        if input.has_lost_focus || (input.presses(Action::Pause) && !stands) || input.step == Some(Move::Back) {
+            self.keep_feats(context);
             return Next::Open(Overlay::Pause(self.played));
         }
         if input.presses(Action::Restart) {

@@ -107,11 +107,13 @@ impl Play {
             two,
             tempo: Tempo::default(),
             last_place: Vec2::ZERO,
+            last_life: None,
             over_for: 0.0,
             ghost,
             divide_key: context.settings.keys.label(Action::Divide),
             optics_key: context.settings.keys.label(Action::Optics),
-            tempo_keys: [Action::Slower, Action::Faster].map(|action| context.settings.keys.label(action)),
+            tempo_keys: [Action::Slower, Action::Faster, Action::Pause]
+                .map(|action| context.settings.keys.label(action)),
         }
     }
 }

@@ -39,8 +39,8 @@ impl Play {
             let score = self.round.attempt().map_or_else(points, Attempt::summary);
             (score, [referee.time_left(), referee.game().time])
         };
-        let life = chain_scene::status(&self.round, self.seen()).filter(|_| self.two.is_none());
-        let (score, time) = life.unwrap_or_else(of_game);
+        let life = chain_scene::status(&self.round, self.seen()).or_else(|| self.last_life.clone());
+        let (score, time) = life.filter(|_| self.two.is_none()).unwrap_or_else(of_game);
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
     }
 
@@ -95,7 +95,8 @@ impl Play {
     }
 
     fn tempo_advice(&self) -> String {
-        let [slower, faster] = &self.tempo_keys;
-        words::text_with(Key::HintTempo, &[("slower", slower.into()), ("faster", faster.into())])
+        let [slower, faster, stop] = &self.tempo_keys;
+        let keys = [("slower", slower.into()), ("faster", faster.into()), ("stop", stop.into())];
+        words::text_with(Key::HintTempo, &keys)
     }
 }

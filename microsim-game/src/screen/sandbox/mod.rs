@@ -109,10 +109,16 @@ impl Sandbox {
         if self.tools.tool.builds() { built(before) != built(&self.stage) } else { begins }
     }
 
-    fn press(&mut self, input: &Input) {
+    fn press(&mut self, input: &Input, context: &mut AppContext) {
         self.is_paused ^= input.presses(Action::Pause);
         self.is_paused |= input.has_lost_focus;
-        self.shows.panel ^= input.presses(Action::Panel);
+        if input.presses(Action::Panel) {
+            self.shows.panel ^= true;
+            if !self.shows.panel {
+                let key = context.settings.keys.label(Action::Panel);
+                context.tell(words::text_with(Key::SandboxPanel, &[("key", (&key).into())]));
+            }
+        }
         self.shows.anatomy ^= input.presses(Action::DebugView);
         self.shows.plots ^= input.presses(Action::Plots);
         self.tempo = self.tempo.changed(input.presses(Action::Faster), input.presses(Action::Slower));
@@ -202,7 +208,7 @@ impl Screen for Sandbox {
         if input.presses(Action::Undo) {
             self.undo(context);
         }
-        self.press(input);
+        self.press(input, context);
         let place = panel::place(&context.pen);
         let is_on_panel = self.shows.panel && self.panel.contains(input.cursor, &place);
         if self.shows.panel
