@@ -96,7 +96,30 @@ impl Film {
         let mut part = || shift(rng.bits());
         let grain = GrainShifts { fine: part(), coarse: part(), blotches: part() };
         let level = 1.0 + self.flicker * rng.normal();
-        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level, camera: Camera::of(self, seed) }
+        let (camera, slide) = (Camera::of(self, seed), Slide::of(self, seed));
+        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level, camera, slide }
+    }
+}
+
+/// In what slides differ, and how they were taken: stain or contrast, light, and focus. Half of a spread is common to all colours.
+#[derive(Clone, Copy, Debug)]
+struct Slide {
+    /// Glare in each colour; where it is negative, a stain is strong.
+    glare: [f32; 3],
+    light: [f32; 3],
+    /// Blur of the lens relative to that of its kind of optics.
+    blur: f32,
+}
+
+impl Slide {
+    /// Spreads go by the film's glare, so that a film without it shows the optics alone.
+    fn of(film: &Film, seed: u32) -> Self {
+        let mut rng = HashRng::new(seed ^ 0x511d);
+        let (strong, bright, dull) = (rng.normal(), rng.normal(), rng.unit());
+        let [glare, light] = [(STAINS, strong), (LIGHTS, bright)]
+            .map(|(spread, common)| [(); 3].map(|()| film.glare * spread * (common + rng.normal())));
+        let blur = 1.0 + film.glare * mix(DULL[0], DULL[1], dull * dull);
+        Self { glare: glare.map(|part| film.glare + part), light: light.map(|part| 1.0 + part), blur }
     }
 }
 
@@ -153,6 +176,7 @@ pub(super) struct FilmFrame {
     pub weave: Vec2,
     level: f32,
     camera: Camera,
+    slide: Slide,
 }
 
 /// Which parts of the table of noise a frame's grain is.
@@ -163,6 +187,10 @@ struct GrainShifts {
     blotches: IVec2,
 }
 
+/// Spreads of stains and of light, and least and most blur beyond that of the optics, each in the film's glare.
+const STAINS: f32 = 3.0;
+const LIGHTS: f32 = 1.1;
+const DULL: [f32; 2] = [-5.0, 18.0];
 /// Shares of grain of a pixel's size and of larger grain.
 const FINE: f32 = 0.95;
 const COARSE: f32 = 0.12;
@@ -213,7 +241,8 @@ impl FilmFrame {
             [0.0; N]
         };
         std::array::from_fn(|channel| {
-            let light = mix(light[channel], mode.ground[channel], self.film.glare) * exposure;
+            let light = mix(light[channel], mode.ground[channel], self.slide.glare[channel]);
+            let light = light * exposure * self.slide.light[channel];
             // Grain is strongest in the middle greys, and never quite gone.
             let middle = larger(light * (1.15 - light), 0.01).sqrt();
             let light = light + strength * middle * grain[channel];
@@ -241,6 +270,11 @@ impl FilmFrame {
         std::array::from_fn(|channel| common + blotches * BLOTCHES[channel] * own[channel])
     }
 
+    /// Blur of the lens on this slide, micrometres.
+    pub(super) fn blur(&self, mode: &Mode) -> f32 {
+        mode.blur * self.slide.blur
+    }
+
     /// The blur of a lens of this standard deviation and the camera's sharpening, both in pixels of `pixel` of the picture's.
     pub(super) fn kernel(&self, sigma: f32, pixel: f32) -> Vec<f32> {
         let mask = MASK / pixel;
@@ -262,8 +296,8 @@ impl FilmFrame {
         uniforms.extend([self.film.grain * mode.grain, self.blotches(mode), width as f32, height as f32]);
         let GrainShifts { fine, coarse, blotches } = self.grain;
         uniforms.extend([fine, coarse, blotches].iter().flat_map(|part| part.as_vec2().to_array()));
-        uniforms.extend(mode.ground);
-        uniforms.extend([self.film.glare, self.camera.gradient.x, self.camera.gradient.y]);
+        uniforms.extend([mode.ground, self.slide.glare, self.slide.light].concat());
+        uniforms.extend(self.camera.gradient.to_array());
         let shadow = |shadow: &Shadow| [shadow.at.x, shadow.at.y, shadow.radius, shadow.depth];
         uniforms.extend(self.camera.shadows.iter().flat_map(shadow));
         uniforms

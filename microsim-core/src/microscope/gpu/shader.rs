@@ -39,7 +39,7 @@ const FILM: Uniforms = &[
     ("exposure", 4, 1),
     ("stock", 4, 1),
     ("parts", 2, 3),
-    ("glare", 4, 1),
+    ("slide", 3, 3),
     ("gradient", 2, 1),
     ("shadows", 4, SHADOWS),
     ("image", 4, 1),

@@ -50,7 +50,7 @@ float nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
         return 0.0;
     }
     float uneven = three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
-    depth += 0.025 * middle.z * uneven;
+    depth += NUCLEUS_UNEVEN * middle.z * uneven;
     float width = max(softness, NUCLEUS_EDGE);
     return rising(-width, width, depth) * (1.0 + ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25));
 }
@@ -66,9 +66,10 @@ void main() {
     vec2 from_centre = at - middle.xy;
     vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
     float rags = three_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
-    depth += edge.x * (mix(RAGS_BEHIND, 1.0, front_share) * rags + front_share * edge.y);
+    depth += edge.x * (mix(RAGS_BEHIND, 1.0, front_share) * (POINTS.x - POINTS.y * abs(rags)) + front_share * edge.y);
     float rim = middle.w * (1.0 + RIM_UNEVEN * value(own / (RIM_SIZE * middle.z), shifts[3]));
-    float dome = mix(rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
+    float high = FLAT + (1.0 - FLAT) * bell(length(own) / (MIDDLE * middle.z));
+    float dome = mix(high * rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
     float uneven = three_octaves(own / relief.w, shifts[0]);
     vec4 sum = matter * (dome * (1.0 + relief.z * uneven));
     sum.z *= 1.0 + DYED * uneven;
@@ -78,8 +79,9 @@ void main() {
     mat2 turn = mat2(way, -way.y, way.x);
     vec2 turned = turn * from_centre;
     float nucleus = nucleus_at(at, turn, turned, softness);
-    float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(turned / nucleus_texture.y, shifts[2]));
-    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0)));
+    float dense = rising(CHROMATIN.x, CHROMATIN.y, abs(three_octaves(turned / nucleus_texture.y, shifts[2])));
+    sum += nucleus_matter * nucleus;
+    sum.w += nucleus_matter.w * nucleus * CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0);
     put(sum * rising(-softness, softness, depth));
 }
 #endif

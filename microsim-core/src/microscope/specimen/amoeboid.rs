@@ -40,9 +40,14 @@ const NECK: f32 = 0.10;
 const RAGS: f32 = 0.38;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
-const RAGS_BEHIND: f32 = 0.6;
+const RAGS_BEHIND: f32 = 0.7;
 /// The most by which it is ragged, in the cell's mean radii.
-const MOST_RAGS: f32 = 0.045;
+const MOST_RAGS: f32 = 0.05;
+/// Where the edge is held it stands out in points, by the first of these, and between them it is drawn in, by up to the second.
+const POINTS: [f32; 2] = [0.5, 1.9];
+/// Thickness of a spread cell towards its edge, as a share, and how far its thick middle reaches, in its mean radii.
+const FLAT: f32 = 0.42;
+const MIDDLE: f32 = 0.62;
 /// Mean radius of a cell that is as thick as its look says; smaller ones are thinner.
 const THICK_FROM: f32 = 18.0;
 /// Delay of the thinnest, radians.
@@ -52,13 +57,17 @@ const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.6;
-/// Noise from and to which chromatin is dense.
-const CHROMATIN: [f32; 2] = [-0.80, 0.55];
+/// Noise from and to which chromatin is dense, apart from its sign: where it is nothing pale channels run between clumps.
+const CHROMATIN: [f32; 2] = [0.02, 0.50];
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
 const CLUMPS: f32 = 1.8;
 const ENVELOPE: f32 = 0.08;
-/// Half the width over which the edge of a nucleus fades, micrometres.
-const NUCLEUS_EDGE: f32 = 0.25;
+/// How uneven the edge of a nucleus is, in the cell's mean radii, and half the width over which it fades, micrometres.
+const NUCLEUS_UNEVEN: f32 = 0.010;
+const NUCLEUS_EDGE: f32 = 0.20;
+/// Spread of the thickness of the cells of a slide, and of how much of the dyes their cytoplasm takes up; the most basic dye.
+const SLIDES: f32 = 0.22;
+const BASOPHIL: f32 = 0.16;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 0.2;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
@@ -70,12 +79,16 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),
         ("RAGS_BEHIND", &[RAGS_BEHIND]),
+        ("POINTS", &POINTS),
+        ("FLAT", &[FLAT]),
+        ("MIDDLE", &[MIDDLE]),
         ("RIM_SIZE", &[RIM_SIZE]),
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
         ("BENDS", &[BENDS]),
         ("CHROMATIN", &CHROMATIN),
         ("CLUMPS", &[CLUMPS]),
         ("ENVELOPE", &[ENVELOPE]),
+        ("NUCLEUS_UNEVEN", &[NUCLEUS_UNEVEN]),
         ("NUCLEUS_EDGE", &[NUCLEUS_EDGE]),
         ("DYED", &[DYED]),
     ],
@@ -98,12 +111,14 @@ pub(super) struct AmoeboidBody {
     front: Front,
     lobes: Vec<(Vec2, f32)>,
     seed: u32,
+    /// Seed of what all cells of a slide have in common.
+    slide: u32,
     time: f32,
 }
 
 impl AmoeboidBody {
     /// `None` if there is no area to draw.
-    pub(super) fn of(organism: OrganismView<'_>, look: &'static AmoeboidLook, seed: u32, time: f32) -> Option<Self> {
+    pub(super) fn of(organism: OrganismView<'_>, look: &'static AmoeboidLook, [slide, seed]: [u32; 2], time: f32) -> Option<Self> {
         let surface = organism.surface();
         let (centre, radius) = middle_of(&surface)?;
         let outline = smooth(&surface);
@@ -117,6 +132,7 @@ impl AmoeboidBody {
             front: Front::of(organism, &outline, centre, radius),
             lobes: Vec::new(),
             seed,
+            slide,
             time,
         };
         let Front { direction, strength, ahead, behind, .. } = body.front;
@@ -219,7 +235,12 @@ impl AmoeboidBody {
     fn matter(&self) -> Matter {
         let thin = smaller(self.radius / THICK_FROM, 1.0);
         let Matter { phase, .. } = self.look.matter;
-        Matter { phase: smaller(phase, larger(phase * thin, THINNEST)), ..self.look.matter }
+        let mut rng = HashRng::new(self.slide ^ 0xb0d1);
+        let mut own = || libm::expf(SLIDES * rng.normal());
+        let phase = smaller(phase, larger(phase * thin, THINNEST)) * own();
+        let cytoplasm = self.look.matter.cytoplasm * own();
+        let share = rng.unit();
+        Matter { phase, cytoplasm, nucleus: BASOPHIL * share * share, ..self.look.matter }
     }
 
     /// How wide its rims are at a place of its own frame, as a share of their width.
@@ -237,10 +258,11 @@ impl AmoeboidBody {
         let lamella = self.lamella(place);
         let own = self.from_shape * (place - self.centre);
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 3, self.seed ^ SALTS[1]);
-        let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
+        let ragged = mix(RAGS_BEHIND, 1.0, lamella) * (POINTS[0] - POINTS[1] * rags.abs());
         let depth = depth + self.rags() * (ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim() * self.rim_share(own);
-        let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
+        let high = FLAT + (1.0 - FLAT) * bell(own.length() / (MIDDLE * self.radius));
+        let dome = mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
         let mut matter = self.matter() * (dome * (1.0 + look.texture.amount * uneven));
         matter.cytoplasm *= 1.0 + DYED * uneven;
@@ -253,8 +275,9 @@ impl AmoeboidBody {
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
             let noise = octaves(self.turned(place) / texture.size, 3, self.seed ^ SALTS[2]);
-            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
-            matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
+            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise.abs()) - 1.0);
+            matter += look.nucleus.matter * nucleus;
+            matter.nucleus += look.nucleus.matter.nucleus * nucleus * clumps;
         }
         matter * smoothstep(-softness, softness, depth)
     }
@@ -310,10 +333,10 @@ impl AmoeboidBody {
         let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
         let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.025 * self.radius * octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
+        let uneven = octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
         let edge = larger(softness, NUCLEUS_EDGE);
-        let depth = depth + uneven;
-        let envelope = ENVELOPE * larger(1.0 + 40.0 * uneven / self.radius, 0.0);
+        let depth = depth + NUCLEUS_UNEVEN * self.radius * uneven;
+        let envelope = ENVELOPE * larger(1.0 + uneven, 0.0);
         smoothstep(-edge, edge, depth) * (1.0 + envelope * bell((depth - 0.2) / 0.25))
     }
 

@@ -41,10 +41,12 @@ impl AmoeboidBody {
         let mut rng = HashRng::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
         let mut region = HashRng::new(carrier.index / REGION);
+        let mut slides = HashRng::new(self.slide ^ 0x57ed);
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
             let mut own = |spread: f32| libm::expf(spread * region.normal());
-            let (many, size) = (0.55 * own(1.1), own(0.3));
+            let mut slide = |spread: f32| libm::expf(spread * slides.normal());
+            let (many, size) = (0.55 * own(1.1) * slide(0.6), own(0.3) * slide(0.2));
             let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
             let expected = look.density * 0.866 * spacing * spacing * many;
             let count = (expected + rng.unit()) as u32;
@@ -63,7 +65,7 @@ impl AmoeboidBody {
         let around = bell(larger(nearest, 0.0) / (AROUND * self.radius));
         let own = self.from_shape * (place - self.centre);
         let patch = smoothstep(-0.2, 0.7, octaves(own / (PATCHES * self.radius), 2, self.seed ^ SALTS[2]));
-        mix(0.75 * patch, 1.0, around)
+        mix(0.5 * patch, 1.0, around)
     }
 
     /// Nucleoli, in their places in the nucleus. Of a cell that divides the lobes lie over each other at first.
