@@ -101,7 +101,7 @@ impl Film {
     }
 }
 
-/// In what slides differ, and how they were taken: stain or contrast, light, and focus. Half of a spread is common to all colours.
+/// In what slides differ, and how they were taken: stain or contrast, light, and focus.
 #[derive(Clone, Copy, Debug)]
 struct Slide {
     /// Glare in each colour; where it is negative, a stain is strong.
@@ -116,8 +116,8 @@ impl Slide {
     fn of(film: &Film, seed: u32) -> Self {
         let mut rng = HashRng::new(seed ^ 0x511d);
         let (strong, bright, dull) = (rng.normal(), rng.normal(), rng.unit());
-        let [glare, light] = [(STAINS, strong), (LIGHTS, bright)]
-            .map(|(spread, common)| [(); 3].map(|()| film.glare * spread * (common + rng.normal())));
+        let [glare, light] = [(STAINS, strong, STAINS), (LIGHTS[0], bright, LIGHTS[1])]
+            .map(|(all, common, each)| [(); 3].map(|()| film.glare * (all * common + each * rng.normal())));
         let blur = 1.0 + film.glare * mix(DULL[0], DULL[1], dull * dull);
         Self { glare: glare.map(|part| film.glare + part), light: light.map(|part| 1.0 + part), blur }
     }
@@ -147,7 +147,8 @@ impl Camera {
             let at = Vec2::new(rng.range([-0.9, 0.9]), rng.range([-0.7, 0.7]));
             let (size, share) = (rng.unit(), rng.unit());
             if k < GRAINS_OF_DUST {
-                Shadow { at, radius: mix(0.012, 0.035, size), depth: film.dust * share }
+                // Most are hardly seen.
+                Shadow { at, radius: mix(0.010, 0.040, size * size), depth: film.dust * share * share * share }
             } else {
                 Shadow { at, radius: mix(0.4, 1.0, size), depth: UNEVEN * film.gradient * share }
             }
@@ -187,9 +188,9 @@ struct GrainShifts {
     blotches: IVec2,
 }
 
-/// Spreads of stains and of light, and least and most blur beyond that of the optics, each in the film's glare.
-const STAINS: f32 = 3.0;
-const LIGHTS: f32 = 1.1;
+/// Spread of stains, spreads of the light of all colours and of each, and least and most blur beyond that of the optics, each in the film's glare.
+const STAINS: f32 = 2.6;
+const LIGHTS: [f32; 2] = [1.9, 0.45];
 const DULL: [f32; 2] = [-5.0, 18.0];
 /// Shares of grain of a pixel's size and of larger grain.
 const FINE: f32 = 0.95;

@@ -80,8 +80,8 @@ void main() {
     vec2 turned = turn * from_centre;
     float nucleus = nucleus_at(at, turn, turned, softness);
     float dense = rising(CHROMATIN.x, CHROMATIN.y, abs(three_octaves(turned / nucleus_texture.y, shifts[2])));
-    sum += nucleus_matter * nucleus;
-    sum.w += nucleus_matter.w * nucleus * CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0);
+    float clumps = CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0);
+    sum += nucleus_matter * nucleus * (1.0 + clumps * vec4(CLUMPS_DELAY, 1.0, 1.0, 1.0));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

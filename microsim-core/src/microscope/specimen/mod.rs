@@ -84,7 +84,7 @@ impl Specimen {
         let time = self.background.time;
         match look(organism.kind()).image {
             ImageLook::Round(look) => {
-                let Some(body) = RoundBody::of(organism, look, seed) else { return };
+                let Some(body) = RoundBody::of(organism, look, [self.background.seed, seed]) else { return };
                 self.spots.extend(body.spots(time));
                 self.threads.extend(body.threads(time));
                 self.round.push(body);

@@ -8,9 +8,10 @@ use super::pose::Pose;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
-use super::{individual, uneven_outline};
+use super::individual::{self, Smear};
+use super::uneven_outline;
 use crate::geometry::{direction_or, rotate, unit_vector};
-use crate::look::{Cilia, Pellicle, Profile, RoundLook, SpotShape};
+use crate::look::{Cilia, OutlineLook, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::glsl::{Glsl, glsl_text};
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
@@ -65,6 +66,8 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
 #[derive(Clone, Debug)]
 pub(super) struct RoundBody {
     look: &'static RoundLook,
+    /// Share of the red cells of its slide that have pits from drying.
+    pitted: f32,
     polar: PolarOutline,
     /// Its own first direction: texture and inclusions turn with it.
     facing: Vec2,
@@ -83,7 +86,7 @@ pub(super) struct RoundBody {
 
 impl RoundBody {
     /// `None` if there is no area to draw.
-    pub(super) fn of(organism: OrganismView<'_>, look: &'static RoundLook, seed: u32) -> Option<Self> {
+    pub(super) fn of(organism: OrganismView<'_>, look: &'static RoundLook, [slide, seed]: [u32; 2]) -> Option<Self> {
         let surface = organism.surface();
         let polar = if surface.is_empty() {
             let disc = organism.particles().next()?;
@@ -95,7 +98,10 @@ impl RoundBody {
         let first = surface.first().map_or(Vec2::X, |&node| node - polar.centre);
         let facing = direction_or(first, Vec2::X);
         let mut rng = HashRng::new(seed);
-        uneven_outline::reshape(&mut polar, facing, &look.outline, &mut rng);
+        let smear = Smear::of(slide);
+        let is_red = matches!(look.profile, Profile::Biconcave { .. });
+        let decay = look.outline.decay - if is_red { smear.crenated } else { 0.0 };
+        uneven_outline::reshape(&mut polar, facing, &OutlineLook { decay, ..look.outline }, &mut rng);
         let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         if let Some(pellicle) = look.pellicle {
             make_slipper(&mut polar, facing, axes, pellicle.slipper);
@@ -108,14 +114,14 @@ impl RoundBody {
             let back = Vec2::new(facing.x, -facing.y);
             polar.reshape(|direction| pose.foreshortening(rotate(direction, back)));
             middle = rng.range(c0) + ON_EDGE * pose.steepness();
-            hollow = Hollow::of(pose, &mut rng);
+            hollow = Hollow::of(pose, smear.pale, &mut rng);
             matter.phase *= pose.thickness();
             matter.haemoglobin *= pose.thickness().sqrt();
         }
         let blur = rng.unit();
         let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
         let slope = rotate(rng.direction() * (STEEPEST * rng.unit()), facing);
-        Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
+        Some(Self { look, pitted: smear.pitted, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
     }
 
     /// Width over which the edge fades in a direction, micrometres.
@@ -386,7 +392,7 @@ mod tests {
             panic!("platelets are round")
         };
         let radii = |seed: u32| {
-            let body = RoundBody::of(platelet, look, seed).unwrap();
+            let body = RoundBody::of(platelet, look, [0, seed]).unwrap();
             (0..32).map(|k| body.polar.radius(unit_vector(TAU * k as f32 / 32.0))).collect::<Vec<_>>()
         };
         let (one, other) = (radii(1), radii(2));
