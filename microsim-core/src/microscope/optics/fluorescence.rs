@@ -19,7 +19,7 @@ const CYTOPLASM: [f32; 3] = [0.03, 0.45, 0.03];
 
 /// Condensed chromatin shines more than its amount, the more of it there is the less so: `n` shines as
 /// `(1 + c) n^2 / (c + n^2)`.
-const CONDENSED: f32 = 0.45;
+const CONDENSED: f32 = 0.9;
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.0;
 

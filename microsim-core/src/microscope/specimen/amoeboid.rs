@@ -37,7 +37,7 @@ const BLEB_NECK: f32 = 0.5;
 /// Width over which lobes of a nucleus run into each other, in the cell's mean radii.
 const NECK: f32 = 0.10;
 /// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
-const RAGS: f32 = 0.38;
+const RAGS: f32 = 0.46;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
 const RAGS_BEHIND: f32 = 0.7;
@@ -58,7 +58,11 @@ const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.6;
 /// Noise from and to which chromatin is dense, apart from its sign: where it is nothing pale channels run between clumps.
-const CHROMATIN: [f32; 2] = [-0.12, 0.75];
+const CHROMATIN: [f32; 2] = [-0.12, 0.85];
+/// Noise where channels run, with the opposite sign: clumps on one side of them are larger than on the other.
+const CHANNELS: f32 = 0.25;
+/// How a second lattice of noise is turned against the first.
+const OTHER_LATTICE: Vec2 = Vec2::new(0.6, 0.8);
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
 const CLUMPS: f32 = 1.8;
 /// Share of that by which they delay light: it is for the dye that they differ most.
@@ -67,6 +71,9 @@ const ENVELOPE: f32 = 0.14;
 /// How uneven the edge of a nucleus is, in the cell's mean radii, and half the width over which it fades, micrometres.
 const NUCLEUS_UNEVEN: f32 = 0.010;
 const NUCLEUS_EDGE: f32 = 0.20;
+/// Thickness of a nucleus at its edge, as a share, and the width of its rim, micrometres.
+const NUCLEUS_THIN: f32 = 0.72;
+const NUCLEUS_RIM: f32 = 3.2;
 /// Spread of the thickness of the cells of a slide, and of how much of the dyes their cytoplasm takes up; the most basic dye.
 const SLIDES: f32 = 0.22;
 const BASOPHIL: f32 = 0.16;
@@ -88,6 +95,10 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
         ("BENDS", &[BENDS]),
         ("CHROMATIN", &CHROMATIN),
+        ("CHANNELS", &[CHANNELS]),
+        ("OTHER_LATTICE", &[OTHER_LATTICE.x, OTHER_LATTICE.y]),
+        ("NUCLEUS_THIN", &[NUCLEUS_THIN]),
+        ("NUCLEUS_RIM", &[NUCLEUS_RIM]),
         ("CLUMPS", &[CLUMPS]),
         ("CLUMPS_DELAY", &[CLUMPS_DELAY]),
         ("ENVELOPE", &[ENVELOPE]),
@@ -147,12 +158,17 @@ impl AmoeboidBody {
         Some(body)
     }
 
+    /// Lobes of one nucleus.
+    fn lobe_count(&self) -> u32 {
+        let [fewest, most] = self.look.nucleus.lobes;
+        fewest + HashRng::new(self.seed ^ 0x1ab).bits() % (most - fewest + 1)
+    }
+
     /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
     fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
         let nucleus = &self.look.nucleus;
         let mut rng = HashRng::new(self.seed ^ 0x1ace);
-        let [fewest, most] = nucleus.lobes;
-        let count = fewest + rng.bits() % (most - fewest + 1);
+        let count = self.lobe_count();
         let first = rng.unit() * TAU;
         // A chain that does not close; the more lobes, the smaller they are.
         let step = smaller(1.35, 4.2 / count as f32);
@@ -262,8 +278,9 @@ impl AmoeboidBody {
         let own = self.from_shape * (place - self.centre);
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 3, self.seed ^ SALTS[1]);
         let ragged = mix(RAGS_BEHIND, 1.0, lamella) * (POINTS[0] - POINTS[1] * rags.abs());
-        let depth = depth + self.rags() * (ragged + lamella * PULSE * (self.pulse() - 1.0));
-        let rim = self.rim() * self.rim_share(own);
+        let share = self.rim_share(own);
+        let depth = depth + self.rags() * (share * ragged + lamella * PULSE * (self.pulse() - 1.0));
+        let rim = self.rim() * share;
         let high = FLAT + (1.0 - FLAT) * bell(own.length() / (MIDDLE * self.radius));
         let dome = mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
@@ -277,7 +294,10 @@ impl AmoeboidBody {
         let nucleus = self.nucleus(place, softness);
         if nucleus > 0.0 {
             let texture = &look.nucleus.texture;
-            let noise = octaves(self.turned(place) / texture.size, 3, self.seed ^ SALTS[2]);
+            // Of two lattices, so that neither shows.
+            let at = self.turned(place) / texture.size;
+            let other = octaves(rotate(at, OTHER_LATTICE), 2, self.seed ^ SALTS[4]);
+            let noise = octaves(at, 2, self.seed ^ SALTS[2]) + other + CHANNELS;
             let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise.abs()) - 1.0);
             matter += look.nucleus.matter * nucleus;
             let clumps = look.nucleus.matter * (nucleus * clumps);
@@ -341,7 +361,8 @@ impl AmoeboidBody {
         let edge = larger(softness, NUCLEUS_EDGE);
         let depth = depth + NUCLEUS_UNEVEN * self.radius * uneven;
         let envelope = ENVELOPE * larger(1.0 + uneven, 0.0);
-        smoothstep(-edge, edge, depth) * (1.0 + envelope * bell((depth - 0.2) / 0.25))
+        let thickness = mix(NUCLEUS_THIN, 1.0, rise(depth / NUCLEUS_RIM));
+        smoothstep(-edge, edge, depth) * (thickness + envelope * bell((depth - 0.2) / 0.25))
     }
 
     /// The bright wall around prey that is inside: it grows as the prey goes in.

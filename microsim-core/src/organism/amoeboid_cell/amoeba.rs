@@ -6,7 +6,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     matter: Matter { phase: 2.0, haemoglobin: 0.0, cytoplasm: 1.0, nucleus: 0.0 },
     rim: 4.5,
     ectoplasm: 2.4,
-    texture: Texture { amount: 0.02, size: 1.2 },
+    texture: Texture { amount: 0.035, size: 0.9 },
     lamella: Lamella { length: 0.15, thickness: 0.5, ruffle: 0.1, ruffle_inset: 1.0, rags: 1.1, pulse: 8.0 },
     nucleus: NucleusLook {
         lobes: [1, 3],
@@ -62,7 +62,7 @@ const GRANULES: GranuleLook = GranuleLook {
     limits: [0.12, 0.7],
     gathered: 0.9,
     companions: 2,
-    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.6, nucleus: 0.12 },
+    matter: Matter { phase: 0.020 * WAVE, haemoglobin: 0.0, cytoplasm: 0.4, nucleus: 0.09 },
     shape: SpotShape::Ball,
 };
 
@@ -70,9 +70,9 @@ const VACUOLES: GranuleLook = GranuleLook {
     density: 0.022,
     radius: 0.75,
     spread: 0.45,
-    limits: [0.3, 1.4],
+    limits: [0.3, 1.3],
     gathered: 0.8,
     companions: 0,
-    matter: Matter { phase: -0.011 * WAVE, haemoglobin: 0.0, cytoplasm: -0.28, nucleus: 0.0 },
+    matter: Matter { phase: -0.0065 * WAVE, haemoglobin: 0.0, cytoplasm: -0.28, nucleus: 0.0 },
     shape: SpotShape::Ball,
 };

@@ -71,13 +71,15 @@ impl AmoeboidBody {
     /// Nucleoli, in their places in the nucleus. Of a cell that divides the lobes lie over each other at first.
     fn nucleoli(&self, spots: &mut Vec<Spot>) {
         let [fewest, most] = self.look.nucleus.nucleoli;
-        for &(lobe, size) in &self.lobes {
-            let mut rng = HashRng::new(self.seed ^ 0x0c1e);
+        for (k, &(lobe, size)) in self.lobes.iter().enumerate() {
+            // Alike in both halves of a nucleus that parts.
+            let number = k as u32 % self.lobe_count();
+            let mut rng = HashRng::new(self.seed ^ 0x0c1e ^ number);
             let near = |&(other, _): &(Vec2, f32)| bell((other - lobe).length() / (0.5 * size));
             let share = 1.0 / self.lobes.iter().map(near).sum::<f32>();
-            for _ in 0..fewest + rng.bits() % (most - fewest + 1) {
+            for _ in 0..(fewest + rng.bits() % (most - fewest + 1)) >> number {
                 let at = lobe + rotate(rng.direction() * (0.55 * size * rng.unit()), self.turn());
-                let radius = size * rng.range([0.16, 0.36]);
+                let radius = size * 0.22 * libm::expf(0.35 * rng.normal());
                 let spot = |matter: Matter| Spot { at, radius, matter: matter * share, shape: SpotShape::Bump };
                 spots.extend([spot(NUCLEOLUS), spot(DISPLACED)]);
             }

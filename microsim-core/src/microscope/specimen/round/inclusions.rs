@@ -64,7 +64,7 @@ fn grains(spot: Spot, [fewest, most]: [u32; 2], rng: &mut HashRng) -> Vec<Spot> 
     let count = fewest + rng.bits() % (most - fewest + 1);
     let grain = |_| {
         let at = spot.at + rng.direction() * (0.95 * spot.radius * rng.unit().sqrt());
-        let radius = spot.radius * rng.range([0.12, 0.45]);
+        let radius = spot.radius * rng.range([0.05, 0.40]);
         Spot { at, radius, matter: spot.matter * rng.range([0.1, 0.35]), shape: SpotShape::Bump }
     };
     (0..count).map(grain).collect()
