@@ -62,7 +62,7 @@ impl Film {
         blotches: 1.0,
         glare: 0.035,
         gradient: 0.025,
-        dust: 0.14,
+        dust: 0.11,
         sharpening: 0.25,
     };
 
@@ -190,7 +190,7 @@ struct GrainShifts {
 
 /// Spread of stains, spreads of the light of all colours and of each, and least and most blur beyond that of the optics, each in the film's glare.
 const STAINS: f32 = 2.6;
-const LIGHTS: [f32; 2] = [1.9, 0.45];
+const LIGHTS: [f32; 2] = [1.9, 0.35];
 const DULL: [f32; 2] = [-5.0, 18.0];
 /// Shares of grain of a pixel's size and of larger grain.
 const FINE: f32 = 0.95;

@@ -84,7 +84,7 @@ void main() {
     float nucleus = nucleus_at(at, turn, turned, softness);
     vec2 grain = turned / nucleus_texture.y;
     vec2 other = mat2(OTHER_LATTICE, -OTHER_LATTICE.y, OTHER_LATTICE.x) * grain;
-    float clumped = abs(two_octaves(grain, shifts[2]) + two_octaves(other, shifts[4]) + CHANNELS);
+    float clumped = abs(two_octaves(grain, shifts[2])) + PATCHES * two_octaves(other, shifts[4]);
     float dense = rising(CHROMATIN.x, CHROMATIN.y, clumped);
     float clumps = CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0);
     sum += nucleus_matter * nucleus * (1.0 + clumps * vec4(CLUMPS_DELAY, 1.0, 1.0, 1.0));

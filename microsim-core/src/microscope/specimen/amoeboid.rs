@@ -57,12 +57,11 @@ const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
 /// Size of the bends of a nucleus, in the cell's mean radii.
 const BENDS: f32 = 0.6;
-/// Noise from and to which chromatin is dense, apart from its sign: where it is nothing pale channels run between clumps.
-const CHROMATIN: [f32; 2] = [-0.12, 0.85];
-/// Noise where channels run, with the opposite sign: clumps on one side of them are larger than on the other.
-const CHANNELS: f32 = 0.25;
-/// How a second lattice of noise is turned against the first.
-const OTHER_LATTICE: Vec2 = Vec2::new(0.6, 0.8);
+/// From and to which chromatin is dense, of noise without its sign: where that is nothing pale channels run between clumps.
+const CHROMATIN: [f32; 2] = [-0.45, 1.0];
+/// Strength of patches of denser chromatin in that, of noise whose lattice is turned and wider.
+const PATCHES: f32 = 0.55;
+const OTHER_LATTICE: Vec2 = Vec2::new(0.27, 0.36);
 /// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
 const CLUMPS: f32 = 1.8;
 /// Share of that by which they delay light: it is for the dye that they differ most.
@@ -95,7 +94,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
         ("BENDS", &[BENDS]),
         ("CHROMATIN", &CHROMATIN),
-        ("CHANNELS", &[CHANNELS]),
+        ("PATCHES", &[PATCHES]),
         ("OTHER_LATTICE", &[OTHER_LATTICE.x, OTHER_LATTICE.y]),
         ("NUCLEUS_THIN", &[NUCLEUS_THIN]),
         ("NUCLEUS_RIM", &[NUCLEUS_RIM]),
@@ -296,9 +295,9 @@ impl AmoeboidBody {
             let texture = &look.nucleus.texture;
             // Of two lattices, so that neither shows.
             let at = self.turned(place) / texture.size;
-            let other = octaves(rotate(at, OTHER_LATTICE), 2, self.seed ^ SALTS[4]);
-            let noise = octaves(at, 2, self.seed ^ SALTS[2]) + other + CHANNELS;
-            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise.abs()) - 1.0);
+            let patches = PATCHES * octaves(rotate(at, OTHER_LATTICE), 2, self.seed ^ SALTS[4]);
+            let noise = octaves(at, 2, self.seed ^ SALTS[2]).abs() + patches;
+            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
             matter += look.nucleus.matter * nucleus;
             let clumps = look.nucleus.matter * (nucleus * clumps);
             matter += Matter { phase: CLUMPS_DELAY * clumps.phase, ..clumps };

@@ -97,10 +97,10 @@ impl AmoeboidBody {
         let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
         let radius = look.radius * size * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
-        // Few are dense, and half have no edge.
+        // Few are dense, and most have no edge.
         let share = rng.unit();
         let dense = 0.2 + 1.2 * share * share;
-        let shape = if rng.unit() < 0.5 { SpotShape::Bump } else { look.shape };
+        let shape = if rng.unit() < 0.7 { SpotShape::Bump } else { look.shape };
         let threshold = rng.unit();
         let seed = rng.bits();
         let now = self.time * JIGGLE_RATE;

@@ -41,18 +41,18 @@ impl RoundBody {
 
     /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
     pub(super) fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
-        let count = if rng.unit() < self.pitted { 1 + rng.bits() % 3 } else { 0 };
+        let count = if rng.unit() < self.pitted { 1 + rng.bits() % 4 } else { 0 };
         let mut at = self.place(rng.direction(), 0.6 * rng.unit());
         let along = rng.direction();
         let pit = |_| {
-            let radius = 0.34 * libm::expf(0.45 * rng.normal());
+            let radius = 0.24 * libm::expf(0.40 * rng.normal());
             let dense = rng.range([0.3, 1.3]);
             let clear = Matter { haemoglobin: -1.2 * dense, nucleus: -0.12 * dense, ..Matter::phase(-0.10) };
             let around = Matter { haemoglobin: 0.6 * dense, nucleus: 0.4 * dense, ..Matter::NONE };
             let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
             let pit = [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring];
             // Some lie in a row or run into each other.
-            at += (rng.direction() + along) * (0.8 * radius);
+            at += (rng.direction() + along) * radius;
             pit
         };
         (0..count).flat_map(pit).collect()
