@@ -182,7 +182,17 @@ impl OutlineLook {
     /// A few low waves of about this size.
     pub(crate) const fn uneven(size: f32) -> Self {
         let waves = [0.6 * size, 0.4 * size];
-        Self { median: 1.0, size: 0.0, waves, decay: 1.2, spread: 0.4, ovals: 0.0, tails: 0.0, bites: 0.0, spikes: [0, 0] }
+        Self {
+            median: 1.0,
+            size: 0.0,
+            waves,
+            decay: 1.2,
+            spread: 0.4,
+            ovals: 0.0,
+            tails: 0.0,
+            bites: 0.0,
+            spikes: [0, 0],
+        }
     }
 }
 

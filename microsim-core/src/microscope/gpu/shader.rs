@@ -115,7 +115,7 @@ impl Program {
             Background => drawn(&[&background::GLSL]),
             Walls => drawn(&[&BOX, &chamber::GLSL]),
             Obstacle => drawn(&[&BOX, &distance_field::GLSL, &chamber::GLSL]),
-            Amoeboid => drawn(&[&BOX, &distance_field::GLSL, &amoeboid::GLSL]),
+            Amoeboid => drawn(&[&BOX, &distance_field::GLSL, &amoeboid::nucleus::GLSL, &amoeboid::GLSL]),
             Round | Ciliate => drawn(&[&round::GLSL]),
             Spot => drawn(&[&spot::GLSL]),
             Thread => drawn(&[&thread::GLSL]),

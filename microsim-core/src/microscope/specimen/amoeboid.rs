@@ -5,9 +5,10 @@
 //! shaped.
 
 mod granules;
+pub(in crate::microscope) mod nucleus;
 mod threads;
 
-use super::distance_field::{DistanceField, united};
+use super::distance_field::DistanceField;
 use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
@@ -34,8 +35,6 @@ const MARGIN: f32 = 2.0;
 /// Width over which a bleb and the body run into each other, micrometres.
 const BLEB_NECK: f32 = 0.5;
 
-/// Width over which lobes of a nucleus run into each other, in the cell's mean radii.
-const NECK: f32 = 0.10;
 /// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
 const RAGS: f32 = 0.46;
 const PULSE: f32 = 2.0;
@@ -55,24 +54,6 @@ const THINNEST: f32 = 0.85;
 /// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
 const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
-/// Size of the bends of a nucleus, in the cell's mean radii.
-const BENDS: f32 = 0.6;
-/// From and to which chromatin is dense, of noise without its sign: where that is nothing pale channels run between clumps.
-const CHROMATIN: [f32; 2] = [-0.45, 1.0];
-/// Strength of patches of denser chromatin in that, of noise whose lattice is turned and wider.
-const PATCHES: f32 = 0.55;
-const OTHER_LATTICE: Vec2 = Vec2::new(0.27, 0.36);
-/// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
-const CLUMPS: f32 = 1.8;
-/// Share of that by which they delay light: it is for the dye that they differ most.
-const CLUMPS_DELAY: f32 = 0.4;
-const ENVELOPE: f32 = 0.14;
-/// How uneven the edge of a nucleus is, in the cell's mean radii, and half the width over which it fades, micrometres.
-const NUCLEUS_UNEVEN: f32 = 0.010;
-const NUCLEUS_EDGE: f32 = 0.20;
-/// Thickness of a nucleus at its edge, as a share, and the width of its rim, micrometres.
-const NUCLEUS_THIN: f32 = 0.72;
-const NUCLEUS_RIM: f32 = 3.2;
 /// Spread of the thickness of the cells of a slide, and of how much of the dyes their cytoplasm takes up; the most basic dye.
 const SLIDES: f32 = 0.22;
 const BASOPHIL: f32 = 0.16;
@@ -84,7 +65,6 @@ pub(in crate::microscope) const LOBES: usize = 10;
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
     source: glsl_text!("amoeboid.glsl"),
     constants: &[
-        ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),
         ("RAGS_BEHIND", &[RAGS_BEHIND]),
         ("POINTS", &POINTS),
@@ -92,17 +72,6 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("MIDDLE", &[MIDDLE]),
         ("RIM_SIZE", &[RIM_SIZE]),
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
-        ("BENDS", &[BENDS]),
-        ("CHROMATIN", &CHROMATIN),
-        ("PATCHES", &[PATCHES]),
-        ("OTHER_LATTICE", &[OTHER_LATTICE.x, OTHER_LATTICE.y]),
-        ("NUCLEUS_THIN", &[NUCLEUS_THIN]),
-        ("NUCLEUS_RIM", &[NUCLEUS_RIM]),
-        ("CLUMPS", &[CLUMPS]),
-        ("CLUMPS_DELAY", &[CLUMPS_DELAY]),
-        ("ENVELOPE", &[ENVELOPE]),
-        ("NUCLEUS_UNEVEN", &[NUCLEUS_UNEVEN]),
-        ("NUCLEUS_EDGE", &[NUCLEUS_EDGE]),
         ("DYED", &[DYED]),
     ],
 };
@@ -131,7 +100,12 @@ pub(super) struct AmoeboidBody {
 
 impl AmoeboidBody {
     /// `None` if there is no area to draw.
-    pub(super) fn of(organism: OrganismView<'_>, look: &'static AmoeboidLook, [slide, seed]: [u32; 2], time: f32) -> Option<Self> {
+    pub(super) fn of(
+        organism: OrganismView<'_>,
+        look: &'static AmoeboidLook,
+        [slide, seed]: [u32; 2],
+        time: f32,
+    ) -> Option<Self> {
         let surface = organism.surface();
         let (centre, radius) = middle_of(&surface)?;
         let outline = smooth(&surface);
@@ -155,49 +129,6 @@ impl AmoeboidBody {
             body.part_nucleus(&outline);
         }
         Some(body)
-    }
-
-    /// Lobes of one nucleus.
-    fn lobe_count(&self) -> u32 {
-        let [fewest, most] = self.look.nucleus.lobes;
-        fewest + HashRng::new(self.seed ^ 0x1ab).bits() % (most - fewest + 1)
-    }
-
-    /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
-    fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
-        let nucleus = &self.look.nucleus;
-        let mut rng = HashRng::new(self.seed ^ 0x1ace);
-        let count = self.lobe_count();
-        let first = rng.unit() * TAU;
-        // A chain that does not close; the more lobes, the smaller they are.
-        let step = smaller(1.35, 4.2 / count as f32);
-        let size = radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
-        let lobe = |k: u32| {
-            let lobe = rng.range(nucleus.radius) * size;
-            let angle = first + k as f32 * step + rng.range([-0.15, 0.15]);
-            let place = middle + shape * (unit_vector(angle) * (nucleus.spread * rng.range([0.85, 1.15])));
-            (self.field.pushed_inside(place, lobe + 0.04 * radius), lobe)
-        };
-        (0..count).map(lobe).collect()
-    }
-
-    /// Doubles the nucleus of a cell that divides: its lobes part as the furrow closes, and end where those of the
-    /// daughters, which are as the two halves, will be.
-    fn part_nucleus(&mut self, outline: &[Vec2]) {
-        let Some((i, j)) = narrowest(outline) else { return };
-        let waist = 0.5 * (outline[i] - outline[j]).length();
-        let parted = smoothstep(0.6 * self.radius, 0.2 * self.radius, waist);
-        let halves = [outline[i..=j].to_vec(), [&outline[j..], &outline[..=i]].concat()];
-        let halves = halves.iter().filter_map(|half| {
-            let (centre, radius) = middle_of(half)?;
-            Some(self.lobes(centre, radius, Mat2::from_diagonal(Vec2::splat(radius))))
-        });
-        // Two lobes in the same place run into each other, too.
-        let swelling = 0.25 * NECK * self.radius;
-        let part = |(half, whole): (&(Vec2, f32), &(Vec2, f32))| {
-            (whole.0.lerp(half.0, parted), mix(whole.1 - swelling, half.1, parted))
-        };
-        self.lobes = halves.flat_map(|half| half.iter().zip(&self.lobes).map(part).collect::<Vec<_>>()).collect();
     }
 
     /// Bulges of the membrane of a cell that holds prey: round ones that come and go at its sides and behind.
@@ -281,7 +212,8 @@ impl AmoeboidBody {
         let depth = depth + self.rags() * (share * ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim() * share;
         let high = FLAT + (1.0 - FLAT) * bell(own.length() / (MIDDLE * self.radius));
-        let dome = mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
+        let dome =
+            mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
         let mut matter = self.matter() * (dome * (1.0 + look.texture.amount * uneven));
         matter.cytoplasm *= 1.0 + DYED * uneven;
@@ -290,18 +222,7 @@ impl AmoeboidBody {
             let along = octaves(own * 0.7 + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
             matter += Matter::phase(look.lamella.ruffle * ruffle * smoothstep(-0.3, 0.7, along));
         }
-        let nucleus = self.nucleus(place, softness);
-        if nucleus > 0.0 {
-            let texture = &look.nucleus.texture;
-            // Of two lattices, so that neither shows.
-            let at = self.turned(place) / texture.size;
-            let patches = PATCHES * octaves(rotate(at, OTHER_LATTICE), 2, self.seed ^ SALTS[4]);
-            let noise = octaves(at, 2, self.seed ^ SALTS[2]).abs() + patches;
-            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
-            matter += look.nucleus.matter * nucleus;
-            let clumps = look.nucleus.matter * (nucleus * clumps);
-            matter += Matter { phase: CLUMPS_DELAY * clumps.phase, ..clumps };
-        }
+        matter += self.nucleus_matter(place, softness);
         matter * smoothstep(-softness, softness, depth)
     }
 
@@ -343,27 +264,6 @@ impl AmoeboidBody {
         rotate(place - self.centre, Vec2::new(turn.x, -turn.y))
     }
 
-    /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
-    fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
-        let from_centre = self.turned(place);
-        let bent = self.look.nucleus.bent;
-        if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (bent + NECK) * self.radius + 0.6) {
-            return 0.0;
-        }
-        let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
-        let bend = Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
-        let there = place + rotate(bend, self.turn());
-        let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
-        let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
-        let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
-        let edge = larger(softness, NUCLEUS_EDGE);
-        let depth = depth + NUCLEUS_UNEVEN * self.radius * uneven;
-        let envelope = ENVELOPE * larger(1.0 + uneven, 0.0);
-        let thickness = mix(NUCLEUS_THIN, 1.0, rise(depth / NUCLEUS_RIM));
-        smoothstep(-edge, edge, depth) * (thickness + envelope * bell((depth - 0.2) / 0.25))
-    }
-
     /// The bright wall around prey that is inside: it grows as the prey goes in.
     pub(super) fn phagosome(&self, prey: Vec2, radius: f32) -> Option<Spot> {
         let share = smoothstep(-0.5 * radius, 4.0 * radius, self.field.at(prey));
@@ -389,14 +289,6 @@ fn middle_of(outline: &[Vec2]) -> Option<(Vec2, f32)> {
     let centre = centroid(outline).filter(|centre| centre.is_finite())?;
     let radius = (signed_area(outline).abs() / std::f32::consts::PI).sqrt();
     (radius > 0.0 && radius.is_finite()).then_some((centre, radius))
-}
-
-/// Where an outline is narrowest: two points of it, at least a quarter of it apart.
-fn narrowest(outline: &[Vec2]) -> Option<(usize, usize)> {
-    let count = outline.len();
-    let pairs = (0..count).flat_map(|i| (i + count / 4..count.min(i + 3 * count / 4)).map(move |j| (i, j)));
-    let apart = |(i, j): (usize, usize)| (outline[i] - outline[j]).length_squared();
-    pairs.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
 }
 
 /// 0 outside, 1 from a depth of 1 on, steeper at the edge: a dome that ends thin.
