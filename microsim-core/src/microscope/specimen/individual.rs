@@ -37,7 +37,11 @@ impl Smear {
     pub(super) fn of(slide: u32) -> Self {
         let mut rng = HashRng::new(slide ^ 0x5ea7);
         let (pitted, crenated) = (rng.unit(), rng.unit());
-        Self { pitted: 0.75 * pitted * pitted, pale: rng.unit(), crenated: 1.3 * crenated * crenated * crenated }
+        Self {
+            pitted: 0.75 * pitted * pitted,
+            pale: 0.3 + 0.7 * rng.unit(),
+            crenated: 1.3 * crenated * crenated * crenated,
+        }
     }
 }
 

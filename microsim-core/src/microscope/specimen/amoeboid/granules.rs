@@ -74,7 +74,7 @@ impl AmoeboidBody {
         for (k, &(lobe, size)) in self.lobes.iter().enumerate() {
             // Alike in both halves of a nucleus that parts.
             let number = k as u32 % self.lobe_count();
-            let mut rng = HashRng::new(self.seed ^ 0x0c1e ^ number);
+            let mut rng = HashRng::new(self.nucleus_seed() ^ 0x0c1e ^ number);
             let near = |&(other, _): &(Vec2, f32)| bell((other - lobe).length() / (0.5 * size));
             let share = 1.0 / self.lobes.iter().map(near).sum::<f32>();
             for _ in 0..(fewest + rng.bits() % (most - fewest + 1)) >> number {

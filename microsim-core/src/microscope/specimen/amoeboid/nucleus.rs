@@ -55,13 +55,24 @@ impl AmoeboidBody {
     /// Lobes of one nucleus.
     pub(super) fn lobe_count(&self) -> u32 {
         let [fewest, most] = self.look.nucleus.lobes;
-        fewest + HashRng::new(self.seed ^ 0x1ab).bits() % (most - fewest + 1)
+        fewest + HashRng::new(self.nucleus_seed() ^ 0x1ab).bits() % (most - fewest + 1)
+    }
+
+    /// Whether its nucleus may part. Then nothing of its shape hangs on the cell's own seed or turn: daughters have others.
+    fn parts(&self) -> bool {
+        self.look.nucleus.lobes[0] == 1
+    }
+
+    /// Seed of the shape of its nucleus.
+    pub(super) fn nucleus_seed(&self) -> u32 {
+        if self.parts() { self.slide } else { self.seed }
     }
 
     /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
     pub(super) fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
         let nucleus = &self.look.nucleus;
-        let mut rng = HashRng::new(self.seed ^ 0x1ace);
+        let mut rng = HashRng::new(self.nucleus_seed() ^ 0x1ace);
+        let shape = if self.parts() { Mat2::from_diagonal(Vec2::splat(radius)) } else { shape };
         let count = self.lobe_count();
         let first = rng.unit() * TAU;
         // A chain that does not close; the more lobes, the smaller they are.
