@@ -188,7 +188,8 @@ struct GrainShifts {
     blotches: IVec2,
 }
 
-/// Spread of stains, spreads of the light of all colours and of each, and least and most blur beyond that of the optics, each in the film's glare.
+/// Spread of stains, spreads of the light of all colours and of each, and least and most blur beyond that of the optics,
+/// each in the film's glare.
 const STAINS: f32 = 2.6;
 const LIGHTS: [f32; 2] = [1.9, 0.35];
 const DULL: [f32; 2] = [-5.0, 18.0];

@@ -71,7 +71,8 @@ void main() {
     float ragged = mix(RAGS_BEHIND, 1.0, front_share) * (POINTS.x - POINTS.y * abs(rags));
     depth += edge.x * (share * ragged + front_share * edge.y);
     float rim = middle.w * share;
-    float high = FLAT + (1.0 - FLAT) * bell(length(own) / (MIDDLE * middle.z));
+    float inside = max(1.0 - dot(own, own) / (middle.z * middle.z), 0.0);
+    float high = mix(FLAT, 1.0, inside * inside);
     float dome = mix(high * rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
     float uneven = three_octaves(own / relief.w, shifts[0]);
     vec4 sum = matter * (dome * (1.0 + relief.z * uneven));

@@ -44,9 +44,8 @@ const RAGS_BEHIND: f32 = 0.7;
 const MOST_RAGS: f32 = 0.05;
 /// Where the edge is held it stands out in points, by the first of these, and between them it is drawn in, by up to the second.
 const POINTS: [f32; 2] = [0.5, 1.9];
-/// Thickness of a spread cell towards its edge, as a share, and how far its thick middle reaches, in its mean radii.
+/// Thickness of a spread cell at its edge, as a share of that of its middle.
 const FLAT: f32 = 0.42;
-const MIDDLE: f32 = 0.62;
 /// Mean radius of a cell that is as thick as its look says; smaller ones are thinner.
 const THICK_FROM: f32 = 18.0;
 /// Delay of the thinnest, radians.
@@ -69,7 +68,6 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("RAGS_BEHIND", &[RAGS_BEHIND]),
         ("POINTS", &POINTS),
         ("FLAT", &[FLAT]),
-        ("MIDDLE", &[MIDDLE]),
         ("RIM_SIZE", &[RIM_SIZE]),
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
         ("DYED", &[DYED]),
@@ -88,6 +86,8 @@ pub(super) struct AmoeboidBody {
     centre: Vec2,
     /// Radius of the disc of equal area, micrometres.
     radius: f32,
+    /// Where it is thickest.
+    matter: Matter,
     /// From the membrane to a disc of the same radius: how the cell is turned and stretched, undone.
     from_shape: Mat2,
     front: Front,
@@ -115,6 +115,7 @@ impl AmoeboidBody {
             field: DistanceField::of(&outline, STEP, MARGIN),
             centre,
             radius,
+            matter: matter_of(look, radius, slide),
             from_shape: shape.inverse() * radius,
             front: Front::of(organism, &outline, centre, radius),
             lobes: Vec::new(),
@@ -160,7 +161,7 @@ impl AmoeboidBody {
         let [from, to] = self.border();
         uniforms.extend([from, to, look.lamella.thickness * self.pulse(), self.time * RUFFLING % 256.0]);
         uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
-        uniforms.extend(self.matter().to_array());
+        uniforms.extend(self.matter.to_array());
         uniforms.extend(look.nucleus.matter.to_array());
         uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size, look.nucleus.bent]);
         uniforms.extend([self.rags(), PULSE * (self.pulse() - 1.0)]);
@@ -178,18 +179,6 @@ impl AmoeboidBody {
 
     fn rags(&self) -> f32 {
         smaller(self.look.lamella.rags, MOST_RAGS * self.radius)
-    }
-
-    /// Its matter where it is thickest.
-    fn matter(&self) -> Matter {
-        let thin = smaller(self.radius / THICK_FROM, 1.0);
-        let Matter { phase, .. } = self.look.matter;
-        let mut rng = HashRng::new(self.slide ^ 0xb0d1);
-        let mut own = || libm::expf(SLIDES * rng.normal());
-        let phase = smaller(phase, larger(phase * thin, THINNEST)) * own();
-        let cytoplasm = self.look.matter.cytoplasm * own();
-        let share = rng.unit();
-        Matter { phase, cytoplasm, nucleus: BASOPHIL * share * share, ..self.look.matter }
     }
 
     /// How wide its rims are at a place of its own frame, as a share of their width.
@@ -211,11 +200,12 @@ impl AmoeboidBody {
         let share = self.rim_share(own);
         let depth = depth + self.rags() * (share * ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim() * share;
-        let high = FLAT + (1.0 - FLAT) * bell(own.length() / (MIDDLE * self.radius));
+        let inside = larger(1.0 - own.length_squared() / (self.radius * self.radius), 0.0);
+        let high = mix(FLAT, 1.0, inside * inside);
         let dome =
             mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
-        let mut matter = self.matter() * (dome * (1.0 + look.texture.amount * uneven));
+        let mut matter = self.matter * (dome * (1.0 + look.texture.amount * uneven));
         matter.cytoplasm *= 1.0 + DYED * uneven;
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
         if ruffle > 0.01 {
@@ -282,6 +272,17 @@ impl AmoeboidBody {
         let edge = self.field.crossing(self.centre, direction, 0.05 * self.radius)?;
         (radius > 0.05).then_some((self.centre + direction * (edge + 0.3 * radius), radius))
     }
+}
+
+/// Matter of a cell of this radius where it is thickest: cells of a slide have in common how thick they are and what they take up.
+fn matter_of(look: &AmoeboidLook, radius: f32, slide: u32) -> Matter {
+    let thin = smaller(radius / THICK_FROM, 1.0);
+    let mut rng = HashRng::new(slide ^ 0xb0d1);
+    let mut own = || libm::expf(SLIDES * rng.normal());
+    let phase = smaller(look.matter.phase, larger(look.matter.phase * thin, THINNEST)) * own();
+    let cytoplasm = look.matter.cytoplasm * own();
+    let share = rng.unit();
+    Matter { phase, cytoplasm, nucleus: BASOPHIL * share * share, ..look.matter }
 }
 
 /// Centroid of an outline and radius of the disc of equal area; nothing if it encloses none.
