@@ -298,7 +298,9 @@ impl FilmFrame {
         uniforms.extend([self.film.grain * mode.grain, self.blotches(mode), width as f32, height as f32]);
         let GrainShifts { fine, coarse, blotches } = self.grain;
         uniforms.extend([fine, coarse, blotches].iter().flat_map(|part| part.as_vec2().to_array()));
-        uniforms.extend([mode.ground, self.slide.glare, self.slide.light].concat());
+        // What is grey is recorded as its first channel is.
+        let colours = |own: [f32; 3]| std::array::from_fn(|k| own[k.min(mode.channels - 1)]);
+        uniforms.extend([mode.ground, colours(self.slide.glare), colours(self.slide.light)].concat());
         uniforms.extend(self.camera.gradient.to_array());
         let shadow = |shadow: &Shadow| [shadow.at.x, shadow.at.y, shadow.radius, shadow.depth];
         uniforms.extend(self.camera.shadows.iter().flat_map(shadow));
