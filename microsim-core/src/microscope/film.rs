@@ -25,7 +25,8 @@ pub struct Film {
     pub rate: f32,
     /// Strength of blotches of colour relative to the grain, 0 to 4: a sensor sees one colour with each of its pixels.
     pub blotches: f32,
-    /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5.
+    /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5. By how much slides differ in
+    /// stain, light and focus goes by it: 0 leaves that out, too.
     pub glare: f32,
     /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis,
     /// 0 to 0.5. Broad shadows are up to four times as deep.
