@@ -159,7 +159,8 @@ impl RoundLook {
 /// How the outlines of individuals differ from the body's. Lengths are in its mean radii.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutlineLook {
-    /// Standard deviation of the logarithm of their size.
+    /// Their median size, in the body's, and the standard deviation of its logarithm.
+    pub median: f32,
     pub size: f32,
     /// Median size of the wave of order 2 and of that of order 3 around the outline; if the first is 0, the outline is the body's.
     pub waves: [f32; 2],
@@ -181,7 +182,17 @@ impl OutlineLook {
     /// A few low waves of about this size.
     pub(crate) const fn uneven(size: f32) -> Self {
         let waves = [0.6 * size, 0.4 * size];
-        Self { size: 0.0, waves, decay: 1.2, spread: 0.4, ovals: 0.0, tails: 0.0, bites: 0.0, spikes: [0, 0] }
+        Self {
+            median: 1.0,
+            size: 0.0,
+            waves,
+            decay: 1.2,
+            spread: 0.4,
+            ovals: 0.0,
+            tails: 0.0,
+            bites: 0.0,
+            spikes: [0, 0],
+        }
     }
 }
 

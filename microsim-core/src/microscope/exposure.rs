@@ -62,7 +62,7 @@ impl Microscope {
         let pixel = field.pixel();
         let corner = field.corner() + frame.weave * pixel;
         let picture = PixelGrid { corner, pixel, columns, top: 0, rows };
-        let (image, margin) = image_grid(&picture, mode);
+        let (image, margin) = image_grid(&picture, frame.blur(mode));
         let source = match mode.shader {
             Shader::Painted => ImageSource::Painted(Painting::of(view)),
             Shader::Light(shader, _) => {
@@ -85,9 +85,9 @@ impl Microscope {
 }
 
 /// Grid of the image behind a picture, and its margin in pixels.
-fn image_grid(picture: &PixelGrid, mode: &Mode) -> (PixelGrid, usize) {
+fn image_grid(picture: &PixelGrid, lens: f32) -> (PixelGrid, usize) {
     let pixel = larger(picture.pixel, FINEST);
-    let margin = (REACH + 3.0 * mode.blur) / pixel + 3.0 * MASK * picture.pixel / pixel;
+    let margin = (REACH + 3.0 * lens) / pixel + 3.0 * MASK * picture.pixel / pixel;
     let margin = margin.ceil() as usize + 2;
     let scale = picture.pixel / pixel;
     let count = |count: usize| (count as f32 * scale).ceil() as usize + 2 * margin;
@@ -148,7 +148,7 @@ impl Exposure {
         blur(
             &mut light,
             grid.columns,
-            &self.frame.kernel(self.mode.blur / grid.pixel, grid.pixel / self.picture.pixel),
+            &self.frame.kernel(self.frame.blur(self.mode) / grid.pixel, grid.pixel / self.picture.pixel),
         );
         Image { grid, light }
     }

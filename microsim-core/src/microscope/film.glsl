@@ -6,8 +6,8 @@ uniform vec4 exposure;
 // Strength of the grain, of blotches of colour, width and height of the picture.
 uniform vec4 stock;
 uniform vec2 parts[3];
-// Light of a field without a specimen, and its share that glare is.
-uniform vec4 glare;
+// Light of a field without a specimen, its share that glare is, and the slide's light, each by colour.
+uniform vec3 slide[3];
 // By how much the light grows from the middle on.
 uniform vec2 gradient;
 // Shadows of dust: place, radius, depth.
@@ -59,9 +59,9 @@ float shaded(vec2 from_middle) {
 void main() {
     vec2 half_size = 0.5 * stock.zw;
     vec2 from_middle = (gl_FragCoord.xy - half_size) / max(length(half_size), 1.0);
-    vec3 light = mix(light_at(gl_FragCoord.xy * image.xy + vec2(0.0, image.z)), glare.rgb, glare.a);
+    vec3 light = mix(light_at(gl_FragCoord.xy * image.xy + vec2(0.0, image.z)), slide[0], slide[1]);
     float falloff = 1.0 - exposure.y * dot(from_middle, from_middle);
-    vec3 seen = light * (exposure.x * falloff * shaded(from_middle));
+    vec3 seen = light * slide[2] * (exposure.x * falloff * shaded(from_middle));
     vec3 recorded = seen;
     if (stock.x > 0.0) {
         recorded += grain_at(seen);

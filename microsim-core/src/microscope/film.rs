@@ -26,7 +26,8 @@ pub struct Film {
     pub rate: f32,
     /// Strength of blotches of colour relative to the grain, 0 to 4: a sensor sees one colour with each of its pixels.
     pub blotches: f32,
-    /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5.
+    /// Share of the light that comes from all of the field, because lenses scatter it, 0 to 0.5. By how much slides differ in
+    /// stain, light and focus goes by it: 0 leaves that out, too.
     pub glare: f32,
     /// Share by which the light grows from the middle to half the picture's diagonal away, standard deviation along each axis,
     /// 0 to 0.5. Broad shadows are up to four times as deep.
@@ -63,7 +64,7 @@ impl Film {
         blotches: 1.0,
         glare: 0.035,
         gradient: 0.025,
-        dust: 0.14,
+        dust: 0.11,
         sharpening: 0.25,
     };
 
@@ -97,7 +98,30 @@ impl Film {
         let mut part = || shift(rng.bits());
         let grain = GrainShifts { fine: part(), coarse: part(), blotches: part() };
         let level = 1.0 + self.flicker * rng.normal();
-        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level, camera: Camera::of(self, seed) }
+        let (camera, slide) = (Camera::of(self, seed), Slide::of(self, seed));
+        FilmFrame { film: *self, grain, weave: (walk + shake) * self.weave, level, camera, slide }
+    }
+}
+
+/// In what slides differ, and how they were taken: stain or contrast, light, and focus.
+#[derive(Clone, Copy, Debug)]
+struct Slide {
+    /// Glare in each colour; where it is negative, a stain is strong.
+    glare: [f32; 3],
+    light: [f32; 3],
+    /// Blur of the lens relative to that of its kind of optics.
+    blur: f32,
+}
+
+impl Slide {
+    /// Spreads go by the film's glare, so that a film without it shows the optics alone.
+    fn of(film: &Film, seed: u32) -> Self {
+        let mut rng = HashRng::new(seed ^ 0x511d);
+        let (strong, bright, dull) = (rng.normal(), rng.normal(), rng.unit());
+        let [glare, light] = [(STAINS, strong, STAINS), (LIGHTS[0], bright, LIGHTS[1])]
+            .map(|(all, common, each)| [(); 3].map(|()| film.glare * (all * common + each * rng.normal())));
+        let blur = 1.0 + film.glare * mix(DULL[0], DULL[1], dull * dull);
+        Self { glare: glare.map(|part| film.glare + part), light: light.map(|part| 1.0 + part), blur }
     }
 }
 
@@ -125,7 +149,8 @@ impl Camera {
             let at = Vec2::new(rng.range([-0.9, 0.9]), rng.range([-0.7, 0.7]));
             let (size, share) = (rng.unit(), rng.unit());
             if k < GRAINS_OF_DUST {
-                Shadow { at, radius: mix(0.012, 0.035, size), depth: film.dust * share }
+                // Most are hardly seen.
+                Shadow { at, radius: mix(0.010, 0.040, size * size), depth: film.dust * share * share * share }
             } else {
                 Shadow { at, radius: mix(0.4, 1.0, size), depth: UNEVEN * film.gradient * share }
             }
@@ -154,6 +179,7 @@ pub(super) struct FilmFrame {
     pub weave: Vec2,
     level: f32,
     camera: Camera,
+    slide: Slide,
 }
 
 /// Which parts of the table of noise a frame's grain is.
@@ -164,6 +190,11 @@ struct GrainShifts {
     blotches: IVec2,
 }
 
+/// Spread of stains, spreads of the light of all colours and of each, and least and most blur beyond that of the optics,
+/// each in the film's glare.
+const STAINS: f32 = 2.6;
+const LIGHTS: [f32; 2] = [1.9, 0.35];
+const DULL: [f32; 2] = [-5.0, 18.0];
 /// Shares of grain of a pixel's size and of larger grain.
 const FINE: f32 = 0.95;
 const COARSE: f32 = 0.12;
@@ -214,7 +245,8 @@ impl FilmFrame {
             [0.0; N]
         };
         std::array::from_fn(|channel| {
-            let light = mix(light[channel], mode.ground[channel], self.film.glare) * exposure;
+            let light = mix(light[channel], mode.ground[channel], self.slide.glare[channel]);
+            let light = light * exposure * self.slide.light[channel];
             // Grain is strongest in the middle greys, and never quite gone.
             let middle = larger(light * (1.15 - light), 0.01).sqrt();
             let light = light + strength * middle * grain[channel];
@@ -242,6 +274,11 @@ impl FilmFrame {
         std::array::from_fn(|channel| common + blotches * BLOTCHES[channel] * own[channel])
     }
 
+    /// Blur of the lens on this slide, micrometres.
+    pub(super) fn blur(&self, mode: &Mode) -> f32 {
+        mode.blur * self.slide.blur
+    }
+
     /// The blur of a lens of this standard deviation and the camera's sharpening, both in pixels of `pixel` of the picture's.
     pub(super) fn kernel(&self, sigma: f32, pixel: f32) -> Vec<f32> {
         let mask = MASK / pixel;
@@ -263,8 +300,10 @@ impl FilmFrame {
         uniforms.extend([self.film.grain * mode.grain, self.blotches(mode), width as f32, height as f32]);
         let GrainShifts { fine, coarse, blotches } = self.grain;
         uniforms.extend([fine, coarse, blotches].iter().flat_map(|part| part.as_vec2().to_array()));
-        uniforms.extend(mode.ground);
-        uniforms.extend([self.film.glare, self.camera.gradient.x, self.camera.gradient.y]);
+        // What is grey is recorded as its first channel is.
+        let colours = |own: [f32; 3]| std::array::from_fn(|k| own[k.min(mode.channels - 1)]);
+        uniforms.extend([mode.ground, colours(self.slide.glare), colours(self.slide.light)].concat());
+        uniforms.extend(self.camera.gradient.to_array());
         let shadow = |shadow: &Shadow| [shadow.at.x, shadow.at.y, shadow.radius, shadow.depth];
         uniforms.extend(self.camera.shadows.iter().flat_map(shadow));
         uniforms

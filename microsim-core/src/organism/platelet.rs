@@ -112,7 +112,8 @@ impl Spec for PlateletSpec {
                 variation: 0.35,
                 texture: Texture { amount: 0.09, size: 0.8 },
                 outline: OutlineLook {
-                    size: 0.10,
+                    median: 0.76,
+                    size: 0.22,
                     waves: [0.12, 0.045],
                     decay: 2.1,
                     spread: 0.6,

@@ -110,6 +110,7 @@ impl Spec for RedCellSpec {
                 variation: 0.12,
                 texture: Texture { amount: 0.05, size: 0.9 },
                 outline: OutlineLook {
+                    median: 1.0,
                     size: 0.08,
                     waves: [0.055, 0.021],
                     decay: 2.0,

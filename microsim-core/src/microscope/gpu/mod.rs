@@ -137,7 +137,7 @@ impl RecipeBuilder {
 
     /// From the image to the picture.
     fn develop(&self, grid: &PixelGrid, passes: &mut Vec<Pass>) {
-        let sigma = if self.card.is_soft { self.mode.blur / grid.pixel } else { 0.0 };
+        let sigma = if self.card.is_soft { self.frame.blur(self.mode) / grid.pixel } else { 0.0 };
         let sigma = smaller(sigma, MOST_SIGMA);
         let is_soft = self.card.is_soft;
         let weights = if is_soft { self.frame.kernel(sigma, grid.pixel / self.field.pixel()) } else { gaussian(0.0) };

@@ -11,11 +11,11 @@ use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
 /// Defocus over the wave number for each unit of `f`, square micrometres per radian.
-const DEFOCUS: f32 = 0.07;
+const DEFOCUS: f32 = 0.022;
 /// Distance over which the curvature of the delay is taken, micrometres.
 const STEP: f32 = 0.24;
 /// Largest `f`, the noise at which it is half of that, and the distance over which it changes, micrometres.
-const FOCUS: [f32; 3] = [0.65, 0.18, 110.0];
+const FOCUS: [f32; 3] = [1.1, 0.18, 110.0];
 const FOCUS_SEED: u32 = 0xf0c5;
 /// Mottling of the light by what lies far above and below the specimen, as a share, and its size, micrometres.
 const MOTTLE: [f32; 2] = [0.024, 0.9];
@@ -44,7 +44,7 @@ const MODE: Mode = Mode {
     is_bright: true,
     channels: 1,
     surround: Some(Surround::Wave),
-    blur: 0.18,
+    blur: 0.21,
     ground: [BACKGROUND; 3],
     grain: 0.75,
     shader: Shader::Light(shade, &GLSL),

@@ -4,7 +4,6 @@ use super::mode::{Mode, Optics, Shader};
 use super::sampler::Sampler;
 use crate::bare_text::bare_text;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::maths::mix;
 use crate::microscope::noise::{octaves, shift_of};
 use crate::microscope::surround_wave::Surround;
 
@@ -19,8 +18,9 @@ const HAZE: f32 = 0.40;
 const NUCLEUS: [f32; 3] = [0.05, 0.16, 0.95];
 const CYTOPLASM: [f32; 3] = [0.03, 0.45, 0.03];
 
-/// Condensed chromatin shines more than its amount: of it, this share goes by the square.
-const CONDENSED: f32 = 0.5;
+/// Condensed chromatin shines more than its amount, the more of it there is the less so: `n` shines as
+/// `(1 + c) n^2 / (c + n^2)`.
+const CONDENSED: f32 = 0.9;
 /// How soon the camera saturates.
 const SATURATION: f32 = 1.0;
 
@@ -59,8 +59,8 @@ fn shade(sampler: &Sampler<'_>, x: usize, y: usize) -> [f32; 3] {
     let matter = sampler.matter(x, y);
     let shines = |amount: f32| if amount > 0.0 { amount } else { 0.0 };
     let haze = sampler.waves(x, y).1 * HAZE;
-    let nucleus = shines(matter.nucleus);
-    let nucleus = nucleus * mix(1.0, nucleus, CONDENSED) + haze.x;
+    let square = shines(matter.nucleus) * shines(matter.nucleus);
+    let nucleus = (1.0 + CONDENSED) * square / (CONDENSED + square) + haze.x;
     let cytoplasm = shines(matter.cytoplasm) + haze.y;
     let place = sampler.raster.grid.place(x, y);
     let dark = 1.0 + UNEVEN * octaves(place / UNEVEN_SIZE, 2, UNEVEN_SEED);

@@ -18,7 +18,7 @@ const BACKGROUND: [f32; 3] = [0.799, 0.815, 0.800];
 /// Optical densities in red, green and blue: red cells, eosin and its like in cytoplasm, azure and methylene blue.
 const HAEMOGLOBIN: [f32; 3] = [0.100, 0.275, 0.215];
 const CYTOPLASM: [f32; 3] = [0.115, 0.290, 0.045];
-const NUCLEUS: [f32; 3] = [0.32, 0.68, -0.16];
+const NUCLEUS: [f32; 3] = [0.42, 0.80, 0.02];
 /// What dries on the glass between the cells: plasma with a little of each dye, drawn out along the smear.
 const PLASMA: [f32; 3] = [0.021, 0.012, 0.017];
 /// A tone curve: density `d` counts as `d / (1 + TONE d)`, so that what lies over each other is less dark than their sum.

@@ -50,9 +50,10 @@ float nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
         return 0.0;
     }
     float uneven = three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
-    depth += 0.025 * middle.z * uneven;
+    depth += NUCLEUS_UNEVEN * middle.z * uneven;
     float width = max(softness, NUCLEUS_EDGE);
-    return rising(-width, width, depth) * (1.0 + ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25));
+    float thickness = mix(NUCLEUS_THIN, 1.0, rise(depth / NUCLEUS_RIM));
+    return rising(-width, width, depth) * (thickness + ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25));
 }
 
 void main() {
@@ -66,9 +67,13 @@ void main() {
     vec2 from_centre = at - middle.xy;
     vec2 own = own_frame.xy * from_centre.x + own_frame.zw * from_centre.y;
     float rags = three_octaves(own / (RAGS * middle.z) + lamella.w, shifts[1]);
-    depth += edge.x * (mix(RAGS_BEHIND, 1.0, front_share) * rags + front_share * edge.y);
-    float rim = middle.w * (1.0 + RIM_UNEVEN * value(own / (RIM_SIZE * middle.z), shifts[3]));
-    float dome = mix(rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
+    float share = 1.0 + RIM_UNEVEN * value(own / (RIM_SIZE * middle.z), shifts[3]);
+    float ragged = mix(RAGS_BEHIND, 1.0, front_share) * (POINTS.x - POINTS.y * abs(rags));
+    depth += edge.x * (share * ragged + front_share * edge.y);
+    float rim = middle.w * share;
+    float inside = max(1.0 - dot(own, own) / (middle.z * middle.z), 0.0);
+    float high = mix(FLAT, 1.0, inside * inside);
+    float dome = mix(high * rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
     float uneven = three_octaves(own / relief.w, shifts[0]);
     vec4 sum = matter * (dome * (1.0 + relief.z * uneven));
     sum.z *= 1.0 + DYED * uneven;
@@ -78,8 +83,12 @@ void main() {
     mat2 turn = mat2(way, -way.y, way.x);
     vec2 turned = turn * from_centre;
     float nucleus = nucleus_at(at, turn, turned, softness);
-    float dense = rising(CHROMATIN.x, CHROMATIN.y, three_octaves(turned / nucleus_texture.y, shifts[2]));
-    sum += nucleus_matter * (nucleus * (1.0 + CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0)));
+    vec2 grain = turned / nucleus_texture.y;
+    vec2 other = mat2(OTHER_LATTICE, -OTHER_LATTICE.y, OTHER_LATTICE.x) * grain;
+    float clumped = abs(two_octaves(grain, shifts[2])) + PATCHES * two_octaves(other, shifts[4]);
+    float dense = rising(CHROMATIN.x, CHROMATIN.y, clumped);
+    float clumps = CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0);
+    sum += nucleus_matter * nucleus * (1.0 + clumps * vec4(CLUMPS_DELAY, 1.0, 1.0, 1.0));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

@@ -5,9 +5,10 @@
 //! shaped.
 
 mod granules;
+pub(in crate::microscope) mod nucleus;
 mod threads;
 
-use super::distance_field::{DistanceField, united};
+use super::distance_field::DistanceField;
 use super::front::Front;
 use super::spline::smooth;
 use super::spot::Spot;
@@ -35,15 +36,17 @@ const MARGIN: f32 = 2.0;
 /// Width over which a bleb and the body run into each other, micrometres.
 const BLEB_NECK: f32 = 0.5;
 
-/// Width over which lobes of a nucleus run into each other, in the cell's mean radii.
-const NECK: f32 = 0.10;
 /// Size of the irregularities of the front's edge, in the cell's mean radii, and strength of its pulse relative to them.
-const RAGS: f32 = 0.38;
+const RAGS: f32 = 0.46;
 const PULSE: f32 = 2.0;
 /// How ragged the edge is elsewhere, as a share.
-const RAGS_BEHIND: f32 = 0.6;
+const RAGS_BEHIND: f32 = 0.7;
 /// The most by which it is ragged, in the cell's mean radii.
-const MOST_RAGS: f32 = 0.045;
+const MOST_RAGS: f32 = 0.05;
+/// Where the edge is held it stands out in points, by the first of these, and between them it is drawn in, by up to the second.
+const POINTS: [f32; 2] = [0.5, 1.9];
+/// Thickness of a spread cell at its edge, as a share of that of its middle.
+const FLAT: f32 = 0.42;
 /// Mean radius of a cell that is as thick as its look says; smaller ones are thinner.
 const THICK_FROM: f32 = 18.0;
 /// Delay of the thinnest, radians.
@@ -51,15 +54,9 @@ const THINNEST: f32 = 0.85;
 /// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
 const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
-/// Size of the bends of a nucleus, in the cell's mean radii.
-const BENDS: f32 = 0.6;
-/// Noise from and to which chromatin is dense.
-const CHROMATIN: [f32; 2] = [-0.80, 0.55];
-/// Strength of clumps of chromatin relative to the texture of a nucleus, and how much denser its envelope is.
-const CLUMPS: f32 = 1.8;
-const ENVELOPE: f32 = 0.08;
-/// Half the width over which the edge of a nucleus fades, micrometres.
-const NUCLEUS_EDGE: f32 = 0.25;
+/// Spread of the thickness of the cells of a slide, and of how much of the dyes their cytoplasm takes up; the most basic dye.
+const SLIDES: f32 = 0.22;
+const BASOPHIL: f32 = 0.16;
 /// How much more uneven what takes up dye is than what delays light.
 const DYED: f32 = 0.2;
 /// Most lobes of the nuclei of a cell: two of five while it divides.
@@ -68,16 +65,12 @@ pub(in crate::microscope) const LOBES: usize = 10;
 pub(in crate::microscope) const GLSL: Glsl = Glsl {
     source: bare_text!("amoeboid.glsl", "//"),
     constants: &[
-        ("NECK", &[NECK]),
         ("RAGS", &[RAGS]),
         ("RAGS_BEHIND", &[RAGS_BEHIND]),
+        ("POINTS", &POINTS),
+        ("FLAT", &[FLAT]),
         ("RIM_SIZE", &[RIM_SIZE]),
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
-        ("BENDS", &[BENDS]),
-        ("CHROMATIN", &CHROMATIN),
-        ("CLUMPS", &[CLUMPS]),
-        ("ENVELOPE", &[ENVELOPE]),
-        ("NUCLEUS_EDGE", &[NUCLEUS_EDGE]),
         ("DYED", &[DYED]),
     ],
 };
@@ -94,17 +87,26 @@ pub(super) struct AmoeboidBody {
     centre: Vec2,
     /// Radius of the disc of equal area, micrometres.
     radius: f32,
+    /// Where it is thickest.
+    matter: Matter,
     /// From the membrane to a disc of the same radius: how the cell is turned and stretched, undone.
     from_shape: Mat2,
     front: Front,
     lobes: Vec<(Vec2, f32)>,
     seed: u32,
+    /// Seed of what all cells of a slide have in common.
+    slide: u32,
     time: f32,
 }
 
 impl AmoeboidBody {
     /// `None` if there is no area to draw.
-    pub(super) fn of(organism: OrganismView<'_>, look: &'static AmoeboidLook, seed: u32, time: f32) -> Option<Self> {
+    pub(super) fn of(
+        organism: OrganismView<'_>,
+        look: &'static AmoeboidLook,
+        [slide, seed]: [u32; 2],
+        time: f32,
+    ) -> Option<Self> {
         let surface = organism.surface();
         let (centre, radius) = middle_of(&surface)?;
         let outline = smooth(&surface);
@@ -114,10 +116,12 @@ impl AmoeboidBody {
             field: DistanceField::of(&outline, STEP, MARGIN),
             centre,
             radius,
+            matter: matter_of(look, radius, slide),
             from_shape: shape.inverse() * radius,
             front: Front::of(organism, &outline, centre, radius),
             lobes: Vec::new(),
             seed,
+            slide,
             time,
         };
         let Front { direction, strength, ahead, behind, .. } = body.front;
@@ -127,44 +131,6 @@ impl AmoeboidBody {
             body.part_nucleus(&outline);
         }
         Some(body)
-    }
-
-    /// Lobes of the nucleus of a cell of this radius: a chain around its middle, inside whatever shape the cell has.
-    fn lobes(&self, middle: Vec2, radius: f32, shape: Mat2) -> Vec<(Vec2, f32)> {
-        let nucleus = &self.look.nucleus;
-        let mut rng = HashRng::new(self.seed ^ 0x1ace);
-        let [fewest, most] = nucleus.lobes;
-        let count = fewest + rng.bits() % (most - fewest + 1);
-        let first = rng.unit() * TAU;
-        // A chain that does not close; the more lobes, the smaller they are.
-        let step = smaller(1.35, 4.2 / count as f32);
-        let size = radius * (3.0 / count as f32).sqrt().clamp(0.7, 1.0);
-        let lobe = |k: u32| {
-            let lobe = rng.range(nucleus.radius) * size;
-            let angle = first + k as f32 * step + rng.range([-0.15, 0.15]);
-            let place = middle + shape * (unit_vector(angle) * (nucleus.spread * rng.range([0.85, 1.15])));
-            (self.field.pushed_inside(place, lobe + 0.04 * radius), lobe)
-        };
-        (0..count).map(lobe).collect()
-    }
-
-    /// Doubles the nucleus of a cell that divides: its lobes part as the furrow closes, and end where those of the
-    /// daughters, which are as the two halves, will be.
-    fn part_nucleus(&mut self, outline: &[Vec2]) {
-        let Some((i, j)) = narrowest(outline) else { return };
-        let waist = 0.5 * (outline[i] - outline[j]).length();
-        let parted = smoothstep(0.6 * self.radius, 0.2 * self.radius, waist);
-        let halves = [outline[i..=j].to_vec(), [&outline[j..], &outline[..=i]].concat()];
-        let halves = halves.iter().filter_map(|half| {
-            let (centre, radius) = middle_of(half)?;
-            Some(self.lobes(centre, radius, Mat2::from_diagonal(Vec2::splat(radius))))
-        });
-        // Two lobes in the same place run into each other, too.
-        let swelling = 0.25 * NECK * self.radius;
-        let part = |(half, whole): (&(Vec2, f32), &(Vec2, f32))| {
-            (whole.0.lerp(half.0, parted), mix(whole.1 - swelling, half.1, parted))
-        };
-        self.lobes = halves.flat_map(|half| half.iter().zip(&self.lobes).map(part).collect::<Vec<_>>()).collect();
     }
 
     /// Bulges of the membrane of a cell that holds prey: round ones that come and go at its sides and behind.
@@ -196,7 +162,7 @@ impl AmoeboidBody {
         let [from, to] = self.border();
         uniforms.extend([from, to, look.lamella.thickness * self.pulse(), self.time * RUFFLING % 256.0]);
         uniforms.extend([look.lamella.ruffle, look.lamella.ruffle_inset, look.texture.amount, look.texture.size]);
-        uniforms.extend(self.matter().to_array());
+        uniforms.extend(self.matter.to_array());
         uniforms.extend(look.nucleus.matter.to_array());
         uniforms.extend([look.nucleus.texture.amount, look.nucleus.texture.size, look.nucleus.bent]);
         uniforms.extend([self.rags(), PULSE * (self.pulse() - 1.0)]);
@@ -216,13 +182,6 @@ impl AmoeboidBody {
         smaller(self.look.lamella.rags, MOST_RAGS * self.radius)
     }
 
-    /// Its matter where it is thickest.
-    fn matter(&self) -> Matter {
-        let thin = smaller(self.radius / THICK_FROM, 1.0);
-        let Matter { phase, .. } = self.look.matter;
-        Matter { phase: smaller(phase, larger(phase * thin, THINNEST)), ..self.look.matter }
-    }
-
     /// How wide its rims are at a place of its own frame, as a share of their width.
     fn rim_share(&self, own: Vec2) -> f32 {
         1.0 + RIM_UNEVEN * octaves(own / (RIM_SIZE * self.radius), 1, self.seed ^ SALTS[3])
@@ -238,25 +197,23 @@ impl AmoeboidBody {
         let lamella = self.lamella(place);
         let own = self.from_shape * (place - self.centre);
         let rags = octaves(own / (RAGS * self.radius) + Vec2::splat(self.time * RUFFLING), 3, self.seed ^ SALTS[1]);
-        let ragged = mix(RAGS_BEHIND, 1.0, lamella) * rags;
-        let depth = depth + self.rags() * (ragged + lamella * PULSE * (self.pulse() - 1.0));
-        let rim = self.rim() * self.rim_share(own);
-        let dome = mix(rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
+        let ragged = mix(RAGS_BEHIND, 1.0, lamella) * (POINTS[0] - POINTS[1] * rags.abs());
+        let share = self.rim_share(own);
+        let depth = depth + self.rags() * (share * ragged + lamella * PULSE * (self.pulse() - 1.0));
+        let rim = self.rim() * share;
+        let inside = larger(1.0 - own.length_squared() / (self.radius * self.radius), 0.0);
+        let high = mix(FLAT, 1.0, inside * inside);
+        let dome =
+            mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);
-        let mut matter = self.matter() * (dome * (1.0 + look.texture.amount * uneven));
+        let mut matter = self.matter * (dome * (1.0 + look.texture.amount * uneven));
         matter.cytoplasm *= 1.0 + DYED * uneven;
         let ruffle = bell((depth - look.lamella.ruffle_inset) / 0.28) * lamella;
         if ruffle > 0.01 {
             let along = octaves(own * 0.7 + Vec2::splat(self.time * RUFFLING), 2, self.seed ^ SALTS[1]);
             matter += Matter::phase(look.lamella.ruffle * ruffle * smoothstep(-0.3, 0.7, along));
         }
-        let nucleus = self.nucleus(place, softness);
-        if nucleus > 0.0 {
-            let texture = &look.nucleus.texture;
-            let noise = octaves(self.turned(place) / texture.size, 3, self.seed ^ SALTS[2]);
-            let clumps = CLUMPS * texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
-            matter += look.nucleus.matter * (nucleus * (1.0 + clumps));
-        }
+        matter += self.nucleus_matter(place, softness);
         matter * smoothstep(-softness, softness, depth)
     }
 
@@ -298,26 +255,6 @@ impl AmoeboidBody {
         rotate(place - self.centre, Vec2::new(turn.x, -turn.y))
     }
 
-    /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
-    fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
-        let from_centre = self.turned(place);
-        let bent = self.look.nucleus.bent;
-        if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (bent + NECK) * self.radius + 0.6) {
-            return 0.0;
-        }
-        let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
-        let bend = Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
-        let there = place + rotate(bend, self.turn());
-        let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
-        let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
-        let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
-        let uneven = 0.025 * self.radius * octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
-        let edge = larger(softness, NUCLEUS_EDGE);
-        let depth = depth + uneven;
-        let envelope = ENVELOPE * larger(1.0 + 40.0 * uneven / self.radius, 0.0);
-        smoothstep(-edge, edge, depth) * (1.0 + envelope * bell((depth - 0.2) / 0.25))
-    }
-
     /// The bright wall around prey that is inside: it grows as the prey goes in.
     pub(super) fn phagosome(&self, prey: Vec2, radius: f32) -> Option<Spot> {
         let share = smoothstep(-0.5 * radius, 4.0 * radius, self.field.at(prey));
@@ -338,19 +275,22 @@ impl AmoeboidBody {
     }
 }
 
+/// Matter of a cell of this radius where it is thickest: cells of a slide have in common how thick they are and what they take up.
+fn matter_of(look: &AmoeboidLook, radius: f32, slide: u32) -> Matter {
+    let thin = smaller(radius / THICK_FROM, 1.0);
+    let mut rng = HashRng::new(slide ^ 0xb0d1);
+    let mut own = || libm::expf(SLIDES * rng.normal());
+    let phase = smaller(look.matter.phase, larger(look.matter.phase * thin, THINNEST)) * own();
+    let cytoplasm = look.matter.cytoplasm * own();
+    let share = rng.unit();
+    Matter { phase, cytoplasm, nucleus: BASOPHIL * share * share, ..look.matter }
+}
+
 /// Centroid of an outline and radius of the disc of equal area; nothing if it encloses none.
 fn middle_of(outline: &[Vec2]) -> Option<(Vec2, f32)> {
     let centre = centroid(outline).filter(|centre| centre.is_finite())?;
     let radius = (signed_area(outline).abs() / std::f32::consts::PI).sqrt();
     (radius > 0.0 && radius.is_finite()).then_some((centre, radius))
-}
-
-/// Where an outline is narrowest: two points of it, at least a quarter of it apart.
-fn narrowest(outline: &[Vec2]) -> Option<(usize, usize)> {
-    let count = outline.len();
-    let pairs = (0..count).flat_map(|i| (i + count / 4..count.min(i + 3 * count / 4)).map(move |j| (i, j)));
-    let apart = |(i, j): (usize, usize)| (outline[i] - outline[j]).length_squared();
-    pairs.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
 }
 
 /// 0 outside, 1 from a depth of 1 on, steeper at the edge: a dome that ends thin.

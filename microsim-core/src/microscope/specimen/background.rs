@@ -13,6 +13,8 @@ use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::{IVec2, Vec2};
 
+/// Logarithm of what slides have of these on average, and its spread.
+const DIRTY: [f32; 2] = [-0.35, 0.65];
 /// Side of the cells in which single specks are strewn, micrometres, and specks in each on average.
 const DUST_CELL: f32 = 5.0;
 const DUST: f32 = 0.65;
@@ -110,11 +112,15 @@ impl BackgroundMatter {
     fn things(&self, bounds: (Vec2, Vec2), pixel: f32) -> (Vec<Spot>, Vec<Thread>) {
         let (mut spots, mut threads) = (Vec::new(), Vec::new());
         let strength = smoothstep(DUST_FADES[1], DUST_FADES[0], pixel);
+        // Some slides are clean.
+        let mut rng = HashRng::new(self.seed ^ 20);
+        let mut dirty = |expected: f32| expected * libm::expf(DIRTY[0] + DIRTY[1] * rng.normal());
+        let (dust, clumps, far) = (dirty(DUST), dirty(CLUMPS), dirty(FAR));
         if strength > 0.0 {
-            strewn(bounds, Vec2::ZERO, [DUST_CELL, DUST], self.seed ^ 21, |at, rng| {
+            strewn(bounds, Vec2::ZERO, [DUST_CELL, dust], self.seed ^ 21, |at, rng| {
                 self.speck(at, strength, rng, &mut spots);
             });
-            strewn(bounds, Vec2::ZERO, [CLUMP_CELL, CLUMPS], self.seed ^ 23, |at, rng| {
+            strewn(bounds, Vec2::ZERO, [CLUMP_CELL, clumps], self.seed ^ 23, |at, rng| {
                 self.clump(at, strength, rng, &mut spots);
             });
             strewn(bounds, Vec2::ZERO, [FIBRE_CELL, FIBRES], self.seed ^ 24, |at, rng| {
@@ -130,7 +136,7 @@ impl BackgroundMatter {
         }
         if pixel < FAR_ENDS {
             let shift = self.camera * PARALLAX;
-            strewn(bounds, shift, [FAR_CELL, FAR], self.seed ^ 22, |at, rng| self.far(at, rng, &mut spots));
+            strewn(bounds, shift, [FAR_CELL, far], self.seed ^ 22, |at, rng| self.far(at, rng, &mut spots));
         }
         (spots, threads)
     }

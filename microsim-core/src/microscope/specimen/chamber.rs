@@ -14,7 +14,7 @@ use crate::microscope::recipe::{DrawList, Program, QUAD, box_corners};
 use glam::Vec2;
 
 /// Polymer from its rim on.
-const POLYMER: Matter = Matter { phase: 0.85, haemoglobin: 0.12, cytoplasm: 0.05, nucleus: 0.0 };
+const POLYMER: Matter = Matter { phase: 0.60, haemoglobin: 0.12, cytoplasm: 0.05, nucleus: 0.0 };
 /// Width over which it rises, micrometres, and the share by which that differs along a wall: its side is not upright.
 const RIM: f32 = 4.6;
 const LEANING: f32 = 0.7;
@@ -24,7 +24,7 @@ const ALONG: f32 = 21.0;
 const CORNER: f32 = 1.5;
 /// Fringes of an edge above the plane of focus: strength as a share, chirp, and how far they reach, micrometres. They only
 /// add, because a target of bytes holds nothing that is less than nothing.
-const FRINGES: f32 = 0.045;
+const FRINGES: f32 = 0.02;
 const CHIRP: f32 = 1.6;
 /// Share by which the chirp differs along a wall.
 const SPREAD: f32 = 0.45;

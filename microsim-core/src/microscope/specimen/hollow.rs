@@ -1,7 +1,7 @@
 //! The hollow of a red cell. Shares and spreads are those of stained smears.
 
 use super::pose::Pose;
-use crate::microscope::maths::larger;
+use crate::microscope::maths::{larger, mix};
 use crate::microscope::noise::HashRng;
 use glam::{Mat2, Vec2};
 
@@ -30,11 +30,11 @@ impl Hollow {
     /// None.
     pub(super) const NONE: Self = Self { to_hollow: Mat2::IDENTITY, centre: Vec2::ZERO, area: 1.0, dried: [0.0; 4] };
 
-    pub(super) fn of(pose: Pose, rng: &mut HashRng) -> Self {
+    pub(super) fn of(pose: Pose, pale: f32, rng: &mut HashRng) -> Self {
         let kind = rng.unit();
         let (is_flat, is_slit) = (kind < FLAT, kind > 1.0 - SLIT);
         let is_target = (FLAT..FLAT + TARGET).contains(&kind);
-        let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.38, 0.76]) };
+        let radius = if is_slit { rng.range([0.24, 0.34]) } else { rng.range([0.30, 0.56]) + 0.24 * pale };
         let stretch = if is_slit { rng.range([1.35, 1.75]) } else { libm::expf(0.13 * rng.normal().abs()) };
         let direction = rng.direction();
         let turn = Mat2::from_cols(Vec2::new(direction.x, -direction.y), Vec2::new(direction.y, direction.x));
@@ -49,7 +49,8 @@ impl Hollow {
         } else if is_target {
             -0.6 - 0.4 * share
         } else {
-            1.0 - (1.0 - share) * (1.0 - share) * (1.0 - share)
+            // Of a pale slide most are deep.
+            1.0 - (1.0 - share) * mix(1.0, (1.0 - share) * (1.0 - share), pale)
         };
         let dried = [rng.unit(), 0.8 * rng.unit(), depth * (1.0 - pose.steepness()), rng.range([0.4, 1.0])];
         Self { to_hollow, centre: to_hollow * at, area: radius * radius, dried }
@@ -86,7 +87,7 @@ mod tests {
 
     #[test]
     fn dried_cells_end_at_their_rim_and_differ_in_their_middle() {
-        let flat = |rng: &mut HashRng| Hollow::of(Pose::of(None, rng), rng);
+        let flat = |rng: &mut HashRng| Hollow::of(Pose::of(None, rng), 1.0, rng);
         let hollows: Vec<Hollow> = (0..200).map(|seed| flat(&mut HashRng::new(seed))).collect();
 
         let middle = |hollow: &Hollow| hollow.dried(0.0, Vec2::ZERO);

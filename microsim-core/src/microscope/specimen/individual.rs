@@ -23,6 +23,28 @@ pub(super) fn matter(look: &RoundLook, rng: &mut HashRng) -> Matter {
     matter
 }
 
+/// What red cells of a slide have in common: how it was smeared and dried.
+pub(super) struct Smear {
+    /// Share of the cells with pits from drying.
+    pub pitted: f32,
+    /// How pale their middles are, 0 to 1.
+    pub pale: f32,
+    /// By how much waves around the outline decay less, the higher they are: crenated cells.
+    pub crenated: f32,
+}
+
+impl Smear {
+    pub(super) fn of(slide: u32) -> Self {
+        let mut rng = HashRng::new(slide ^ 0x5ea7);
+        let (pitted, crenated) = (rng.unit(), rng.unit());
+        Self {
+            pitted: 0.75 * pitted * pitted,
+            pale: 0.3 + 0.7 * rng.unit(),
+            crenated: 1.3 * crenated * crenated * crenated,
+        }
+    }
+}
+
 /// A part of a body where inclusions gather, alike in size and density.
 pub(super) struct Region {
     /// In the frame in which the body is a disc of radius 1.

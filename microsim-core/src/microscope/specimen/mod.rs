@@ -84,7 +84,7 @@ impl Specimen {
         let time = self.background.time;
         match look(organism.kind()).image {
             ImageLook::Round(look) => {
-                let Some(body) = RoundBody::of(organism, look, seed) else { return };
+                let Some(body) = RoundBody::of(organism, look, [self.background.seed, seed]) else { return };
                 self.spots.extend(body.spots(time));
                 self.threads.extend(body.threads(time));
                 self.round.push(body);
@@ -92,7 +92,9 @@ impl Specimen {
             ImageLook::Amoeboid(look_of) => {
                 let node = organism.particles().find(|particle| particle.role == Role::Membrane);
                 let look = look_of(node.map_or(0.0, |node| node.radius));
-                let Some(mut body) = AmoeboidBody::of(organism, look, seed, time) else { return };
+                let Some(mut body) = AmoeboidBody::of(organism, look, [self.background.seed, seed], time) else {
+                    return;
+                };
                 body.swell(meals(organism, view));
                 self.spots.extend(body.spots(organism));
                 self.threads.extend(body.threads(organism));

@@ -1,21 +1,23 @@
 //! Bodies that are described from their centre outwards: red cells, platelets, cocci, beads, ciliates.
 
 mod inclusions;
+mod processes;
 
 use super::hollow::{Hollow, KNOB};
+use super::individual::{self, Smear};
 use super::polar_outline::PolarOutline;
 use super::pose::Pose;
 use super::spline::smooth;
 use super::spot::Spot;
 use super::thread::Thread;
-use super::{individual, uneven_outline};
+use super::uneven_outline;
 use crate::bare_text::bare_text;
 use crate::geometry::{direction_or, rotate, unit_vector};
-use crate::look::{Cilia, Pellicle, Profile, RoundLook, SpotShape};
+use crate::look::{OutlineLook, Pellicle, Profile, RoundLook, SpotShape};
 use crate::microscope::glsl::Glsl;
 use crate::microscope::maths::{bell, larger, mix, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
-use crate::microscope::noise::{HashRng, octaves, shift_of, wobble};
+use crate::microscope::noise::{HashRng, octaves, shift_of};
 use crate::microscope::recipe::{DrawList, Program};
 use crate::world::view::OrganismView;
 use glam::Vec2;
@@ -40,10 +42,6 @@ const DYED: f32 = 2.0;
 const GROOVE: [f32; 3] = [-0.30, 0.0, 0.71];
 const GROOVE_END: [f32; 2] = [-0.10, 0.06];
 const GROOVE_WIDTH: f32 = 0.30;
-/// Points of the curve that a cilium is.
-const CILIUM_POINTS: usize = 5;
-/// The same for a filopodium.
-const FILOPODIUM_POINTS: usize = 6;
 /// Fewest and most triangles of a body on a graphics card, and their number where its radius is one pixel.
 const SPOKES: [f32; 2] = [24.0, 160.0];
 const SPOKES_PER_ROOT: f32 = 10.0;
@@ -66,6 +64,8 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
 #[derive(Clone, Debug)]
 pub(super) struct RoundBody {
     look: &'static RoundLook,
+    /// Share of the red cells of its slide that have pits from drying.
+    pitted: f32,
     polar: PolarOutline,
     /// Its own first direction: texture and inclusions turn with it.
     facing: Vec2,
@@ -84,7 +84,7 @@ pub(super) struct RoundBody {
 
 impl RoundBody {
     /// `None` if there is no area to draw.
-    pub(super) fn of(organism: OrganismView<'_>, look: &'static RoundLook, seed: u32) -> Option<Self> {
+    pub(super) fn of(organism: OrganismView<'_>, look: &'static RoundLook, [slide, seed]: [u32; 2]) -> Option<Self> {
         let surface = organism.surface();
         let polar = if surface.is_empty() {
             let disc = organism.particles().next()?;
@@ -96,7 +96,10 @@ impl RoundBody {
         let first = surface.first().map_or(Vec2::X, |&node| node - polar.centre);
         let facing = direction_or(first, Vec2::X);
         let mut rng = HashRng::new(seed);
-        uneven_outline::reshape(&mut polar, facing, &look.outline, &mut rng);
+        let smear = Smear::of(slide);
+        let is_red = matches!(look.profile, Profile::Biconcave { .. });
+        let decay = look.outline.decay - if is_red { smear.crenated } else { 0.0 };
+        uneven_outline::reshape(&mut polar, facing, &OutlineLook { decay, ..look.outline }, &mut rng);
         let axes = Vec2::new(polar.radius(facing), polar.radius(facing.perp()));
         if let Some(pellicle) = look.pellicle {
             make_slipper(&mut polar, facing, axes, pellicle.slipper);
@@ -109,14 +112,14 @@ impl RoundBody {
             let back = Vec2::new(facing.x, -facing.y);
             polar.reshape(|direction| pose.foreshortening(rotate(direction, back)));
             middle = rng.range(c0) + ON_EDGE * pose.steepness();
-            hollow = Hollow::of(pose, &mut rng);
+            hollow = Hollow::of(pose, smear.pale, &mut rng);
             matter.phase *= pose.thickness();
             matter.haemoglobin *= pose.thickness().sqrt();
         }
         let blur = rng.unit();
         let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
         let slope = rotate(rng.direction() * (STEEPEST * rng.unit()), facing);
-        Some(Self { look, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
+        Some(Self { look, pitted: smear.pitted, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
     }
 
     /// Width over which the edge fades in a direction, micrometres.
@@ -282,57 +285,6 @@ impl RoundBody {
         self.filopodia(&mut threads);
         threads
     }
-
-    /// Processes into which its edge is drawn out: broad where they begin, and bent.
-    fn filopodia(&self, threads: &mut Vec<Thread>) {
-        let mut rng = HashRng::new(self.seed ^ 0xf170);
-        let count = if self.look.filopodia > 0 { rng.bits() % (self.look.filopodia + 1) } else { 0 };
-        for _ in 0..count {
-            let (own, mean) = (rng.direction(), self.polar.mean);
-            let share = rng.unit();
-            let (length, width) = ((0.15 + 0.65 * share * share) * mean, rng.range([0.10, 0.22]) * mean);
-            let mut at = self.place(own, 0.72);
-            let mut step = rotate(rotate(own, self.facing), unit_vector(0.35 * rng.normal()));
-            step *= (length + 0.28 * mean) / (FILOPODIUM_POINTS - 1) as f32;
-            let bend = unit_vector(0.22 * rng.normal());
-            let points: [Vec2; FILOPODIUM_POINTS] = std::array::from_fn(|_| {
-                let point = at;
-                at += step;
-                step = rotate(step, bend);
-                point
-            });
-            let matter = Matter { cytoplasm: 0.08, ..Matter::phase(0.10) } * rng.range([0.5, 1.2]);
-            threads.extend(Thread::curve(&points, |k| width / (1.0 + 0.9 * k as f32), matter));
-        }
-    }
-
-    /// The cilium at a share of the way around: it swings with the metachronal wave and bends as it swings.
-    fn cilium(&self, cilia: &Cilia, share: f32, time: f32, threads: &mut Vec<Thread>) {
-        // Between even in angle and even on the stretched disc, they are about as dense everywhere.
-        let stretch = Vec2::new(self.axes.x.sqrt(), self.axes.y.sqrt());
-        let root = |share: f32| {
-            let direction = rotate(unit_vector(TAU * share) * stretch, self.facing).normalize_or_zero();
-            self.polar.centre + direction * self.polar.radius(direction)
-        };
-        let from = root(share);
-        let outwards = -direction_or(root(share + 0.004) - root(share - 0.004), Vec2::X).perp();
-        let wave = unit_vector(TAU * (share * cilia.waves - time * cilia.rate) + 0.6 * wobble(share * 40.0, self.seed));
-        // No two beat quite alike, and some are bent or broken.
-        let mut rng = HashRng::new(self.seed ^ share.to_bits());
-        let aside = 0.16 * rng.normal();
-        let part = cilia.length * self.polar.mean * rng.range([0.6, 1.15]) / (CILIUM_POINTS - 1) as f32;
-        let mut at = from;
-        let point = |k: usize| {
-            let point = at;
-            let along = k as f32 / (CILIUM_POINTS - 2) as f32;
-            let swing = mix(0.5 * wave.y - 0.3, 0.8 * wave.y - 0.55 + 0.35 * wave.x, along);
-            at += rotate(outwards, unit_vector(swing + aside)) * part;
-            point
-        };
-        let points: [Vec2; CILIUM_POINTS] = std::array::from_fn(point);
-        let matter = Matter { cytoplasm: 0.15, ..Matter::phase(cilia.phase) };
-        threads.extend(Thread::curve(&points, |_| 0.5 * cilia.width, matter));
-    }
 }
 
 impl Pellicle {
@@ -387,7 +339,7 @@ mod tests {
             panic!("platelets are round")
         };
         let radii = |seed: u32| {
-            let body = RoundBody::of(platelet, look, seed).unwrap();
+            let body = RoundBody::of(platelet, look, [0, seed]).unwrap();
             (0..32).map(|k| body.polar.radius(unit_vector(TAU * k as f32 / 32.0))).collect::<Vec<_>>()
         };
         let (one, other) = (radii(1), radii(2));

@@ -22,7 +22,7 @@ pub(super) fn reshape(polar: &mut PolarOutline, facing: Vec2, look: &OutlineLook
     if look.waves[0] <= 0.0 {
         return;
     }
-    let size = libm::expf(look.size * rng.normal());
+    let size = look.median * libm::expf(look.size * rng.normal());
     let is_oval = rng.unit() < look.ovals;
     let mut wave = |k: usize| {
         let order = (k + 2) as f32;

@@ -15,7 +15,7 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
         spread: 0.42,
         bent: 0.10,
         matter: Matter { phase: 0.30, haemoglobin: 0.0, cytoplasm: -0.4, nucleus: 1.0 },
-        texture: Texture { amount: 0.24, size: 0.9 },
+        texture: Texture { amount: 0.22, size: 1.2 },
         nucleoli: [0, 0],
     },
     granules: &[DENSE, CLEAR, VACUOLES],

@@ -4,16 +4,16 @@ use crate::look::{Cilia, Inclusion, Matter, OutlineLook, Pellicle, Profile, Roun
 
 pub(super) const LOOK: RoundLook = RoundLook {
     profile: Profile::Dome(0.45),
-    matter: Matter { phase: 2.5, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
+    matter: Matter { phase: 1.8, haemoglobin: 0.0, cytoplasm: 0.9, nucleus: 0.0 },
     variation: 0.05,
-    texture: Texture { amount: 0.03, size: 1.1 },
+    texture: Texture { amount: 0.07, size: 1.3 },
     outline: OutlineLook::uneven(0.012),
     inclusions: &[GRANULES, CRYSTALS, FOOD, MACRONUCLEUS],
     cilia: Some(&Cilia { most: 380.0, apart: 0.35, length: 0.16, width: 0.14, phase: 0.26, waves: 9.0, rate: 4.0 }),
     pellicle: Some(&Pellicle {
         furrows: 22.0,
         furrow_depth: 0.012,
-        groove: 0.42,
+        groove: 0.26,
         gullet_phase: 1.0,
         slipper: 0.10,
         vacuole: 0.15,
@@ -25,9 +25,9 @@ pub(super) const LOOK: RoundLook = RoundLook {
 
 const GRANULES: Inclusion = Inclusion {
     count: [320, 400],
-    radius: [0.015, 0.055],
+    radius: [0.010, 0.060],
     place: [0.0, 0.93],
-    matter: Matter { phase: 0.30, haemoglobin: 0.02, cytoplasm: 0.25, nucleus: 0.0 },
+    matter: Matter { phase: 0.22, haemoglobin: 0.02, cytoplasm: 0.25, nucleus: 0.0 },
     shape: SpotShape::Ball,
     grains: [0, 0],
 };
@@ -56,5 +56,5 @@ const MACRONUCLEUS: Inclusion = Inclusion {
     place: [0.0, 0.15],
     matter: Matter { phase: 0.35, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.9 },
     shape: SpotShape::Ball,
-    grains: [4, 7],
+    grains: [24, 36],
 };

@@ -41,10 +41,12 @@ impl AmoeboidBody {
         let mut rng = HashRng::new(carrier.index);
         let spacing = 2.0 * carrier.radius;
         let mut region = HashRng::new(carrier.index / REGION);
+        let mut slides = HashRng::new(self.slide ^ 0x57ed);
         for look in self.look.granules {
             // Particles of a fluid at rest lie on a hexagonal lattice.
             let mut own = |spread: f32| libm::expf(spread * region.normal());
-            let (many, size) = (0.55 * own(1.1), own(0.3));
+            let mut slide = |spread: f32| libm::expf(spread * slides.normal());
+            let (many, size) = (0.55 * own(1.1) * slide(0.6), own(0.3) * slide(0.2));
             let focus = if region.unit() < OUT_OF_FOCUS { region.range([2.0, 5.0]) } else { 0.0 };
             let expected = look.density * 0.866 * spacing * spacing * many;
             let count = (expected + rng.unit()) as u32;
@@ -63,19 +65,21 @@ impl AmoeboidBody {
         let around = bell(larger(nearest, 0.0) / (AROUND * self.radius));
         let own = self.from_shape * (place - self.centre);
         let patch = smoothstep(-0.2, 0.7, octaves(own / (PATCHES * self.radius), 2, self.seed ^ SALTS[2]));
-        mix(0.75 * patch, 1.0, around)
+        mix(0.5 * patch, 1.0, around)
     }
 
     /// Nucleoli, in their places in the nucleus. Of a cell that divides the lobes lie over each other at first.
     fn nucleoli(&self, spots: &mut Vec<Spot>) {
         let [fewest, most] = self.look.nucleus.nucleoli;
-        for &(lobe, size) in &self.lobes {
-            let mut rng = HashRng::new(self.seed ^ 0x0c1e);
+        for (k, &(lobe, size)) in self.lobes.iter().enumerate() {
+            // Alike in both halves of a nucleus that parts.
+            let number = k as u32 % self.lobe_count();
+            let mut rng = HashRng::new(self.nucleus_seed() ^ 0x0c1e ^ number);
             let near = |&(other, _): &(Vec2, f32)| bell((other - lobe).length() / (0.5 * size));
             let share = 1.0 / self.lobes.iter().map(near).sum::<f32>();
-            for _ in 0..fewest + rng.bits() % (most - fewest + 1) {
+            for _ in 0..(fewest + rng.bits() % (most - fewest + 1)) >> number {
                 let at = lobe + rotate(rng.direction() * (0.55 * size * rng.unit()), self.turn());
-                let radius = size * rng.range([0.16, 0.36]);
+                let radius = size * 0.22 * libm::expf(0.35 * rng.normal());
                 let spot = |matter: Matter| Spot { at, radius, matter: matter * share, shape: SpotShape::Bump };
                 spots.extend([spot(NUCLEOLUS), spot(DISPLACED)]);
             }
@@ -93,10 +97,10 @@ impl AmoeboidBody {
         let offset = Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
         let radius = look.radius * size * libm::expf(look.spread * rng.normal());
         let radius = radius.clamp(look.limits[0], look.limits[1]);
-        // Few are dense, and half have no edge.
+        // Few are dense, and most have no edge.
         let share = rng.unit();
         let dense = 0.2 + 1.2 * share * share;
-        let shape = if rng.unit() < 0.5 { SpotShape::Bump } else { look.shape };
+        let shape = if rng.unit() < 0.7 { SpotShape::Bump } else { look.shape };
         let threshold = rng.unit();
         let seed = rng.bits();
         let now = self.time * JIGGLE_RATE;

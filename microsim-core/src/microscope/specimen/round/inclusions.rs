@@ -9,8 +9,6 @@ use crate::microscope::matter::Matter;
 use crate::microscope::noise::HashRng;
 use glam::Vec2;
 
-/// Share of red cells that have pits from drying.
-const PITTED: f32 = 0.2;
 /// Share of many inclusions that have no edge.
 const SOFT: f32 = 0.5;
 /// Largest radius of an inclusion whose rings are seen where it is out of focus, micrometres.
@@ -43,15 +41,19 @@ impl RoundBody {
 
     /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
     pub(super) fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
-        let count = if rng.unit() < PITTED { 1 + rng.bits() % 3 } else { 0 };
+        let count = if rng.unit() < self.pitted { 1 + rng.bits() % 4 } else { 0 };
+        let mut at = self.place(rng.direction(), 0.6 * rng.unit());
+        let along = rng.direction();
         let pit = |_| {
-            let at = self.place(rng.direction(), 0.6 * rng.unit());
-            let radius = 0.30 * libm::expf(0.4 * rng.normal());
-            let dense = rng.range([0.3, 0.9]);
-            let clear = Matter { haemoglobin: -dense, ..Matter::phase(-0.10) };
-            let around = Matter { haemoglobin: 0.5 * dense, nucleus: 0.25 * dense, ..Matter::NONE };
+            let radius = 0.24 * libm::expf(0.40 * rng.normal());
+            let dense = rng.range([0.3, 1.3]);
+            let clear = Matter { haemoglobin: -1.2 * dense, nucleus: -0.12 * dense, ..Matter::phase(-0.10) };
+            let around = Matter { haemoglobin: 0.6 * dense, nucleus: 0.4 * dense, ..Matter::NONE };
             let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
-            [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring]
+            let pit = [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring];
+            // Some lie in a row or run into each other.
+            at += (rng.direction() + along) * radius;
+            pit
         };
         (0..count).flat_map(pit).collect()
     }
@@ -62,7 +64,7 @@ fn grains(spot: Spot, [fewest, most]: [u32; 2], rng: &mut HashRng) -> Vec<Spot> 
     let count = fewest + rng.bits() % (most - fewest + 1);
     let grain = |_| {
         let at = spot.at + rng.direction() * (0.95 * spot.radius * rng.unit().sqrt());
-        let radius = spot.radius * rng.range([0.12, 0.45]);
+        let radius = spot.radius * rng.range([0.05, 0.40]);
         Spot { at, radius, matter: spot.matter * rng.range([0.1, 0.35]), shape: SpotShape::Bump }
     };
     (0..count).map(grain).collect()
