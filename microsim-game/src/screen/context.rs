@@ -104,6 +104,8 @@ pub struct AppContext {
     pub best_times: BestTimes,
     /// What the player has reached in the food chain.
     pub chain_records: ChainRecords,
+    /// The most of all lives in it before the main screen was shown.
+    pub(super) best_before: Feats,
     /// The longest life in a water of the food chain.
     pub best_life: BestLife,
     /// What the player has found of the field guide.
@@ -167,6 +169,7 @@ impl AppContext {
             settings,
             scores,
             best_times,
+            best_before: chain_records.best,
             chain_records,
             best_life,
             found,

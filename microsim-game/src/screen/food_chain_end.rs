@@ -48,7 +48,7 @@ impl FoodChainEnd {
         let (name, day) = signature(context);
         let score =
             Score { game, time: LONGEST, points: feats.time, small: feats.small, rigid: feats.cells, name, day };
-        let before = context.chain_records.best;
+        let before = context.best_before;
         let place = result.record.map(|record| {
             let (place, kept) = context.scores.add(score, &context.store);
             let today = todays_seed(context);

@@ -127,6 +127,7 @@ impl Stack {
 }
 
 fn show(main: MainScreen, context: &mut AppContext) -> Result<Box<dyn Screen>, String> {
+    context.best_before = context.chain_records.best;
     Ok(match main {
         MainScreen::Title => Box::new(Title::new(context)),
         MainScreen::Round => Box::new(Play::start(Paused::Round, context)?),
