@@ -236,15 +236,15 @@ mod tests {
 
     #[test]
     fn nothing_is_moved_into_a_fold_that_leaves_no_room() {
-        // A square with a fold from above, 1 wide and 8 deep.
+        // A square with a fold from above, 1 wide, that leaves 1.2 below it.
         let outline =
-            [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.5, 10.0), (5.5, 2.0), (4.5, 2.0), (4.5, 10.0), (0.0, 10.0)];
+            [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.5, 10.0), (5.5, 1.2), (4.5, 1.2), (4.5, 10.0), (0.0, 10.0)];
         let outline = outline.map(|(x, y)| Vec2::new(x, y));
         let way = |x: f32, y: f32, inside| way_to_side(&outline, Vec2::new(x, y), 1.0, inside);
         assert_eq!(way(4.5, 6.0, false), None, "the other side of the fold is too near");
         assert_eq!(way(4.5, 6.0, true), Some(Vec2::new(-1.0, 0.0)));
         assert_eq!(way(0.2, 5.0, false), Some(Vec2::new(-1.2, 0.0)));
-        assert_eq!(way(5.0, 1.5, true), None, "between the fold and the lower edge");
+        assert_eq!(way(5.0, 1.0, true), None, "between the fold and the lower edge");
         assert_eq!([way(2.0, 5.0, true), way(-2.0, 5.0, false)], [Some(Vec2::ZERO); 2], "it is there");
     }
 }
