@@ -10,8 +10,8 @@ use glam::Vec2;
 
 /// Overlap with the membrane up to which prey counts as inside, as a share of a node's radius.
 const OVERLAP: f32 = 0.25;
-/// Share of the distance at which prey counts as inside at which it counts as outside: so far from the membrane a cell's own does not
-/// slip to the other side when the gate closes, and a disc in a narrow fold does not tear the fold's sides through each other.
+/// Share of the distance at which prey counts as inside at which a cell counts as outside: so far from the membrane its own does not
+/// slip to the other side when the gate closes.
 const OUTSIDE: f32 = 0.5;
 /// Time after which prey that is still between both sides is moved to one of them, in time limits, and the share of its distance from
 /// the membrane that it needs there: pressed into a fold it would tear the membrane's sides through each other.
@@ -111,7 +111,11 @@ impl World {
             let distance = || (nearest_edge(outline, position).0 - position).length();
             let needed = self.particles.radius[i] + clearance;
             inside &= is_within && distance() >= needed;
-            outside &= !is_within && distance() >= OUTSIDE * needed;
+            let is_free = || match prey.is_cell() {
+                true => distance() >= OUTSIDE * needed,
+                false => way_to_side(outline, position, needed, false).is_some(),
+            };
+            outside &= !is_within && is_free();
         }
         match (inside, outside) {
             (true, _) => PreySide::Inside,
@@ -179,6 +183,18 @@ mod tests {
     use crate::capability::phagocytosis::{IngestionWay, MealPhase, PreyClass};
     use crate::{AgarSpec, AmoeboidCellSpec, Placement, RigidCellSpec, WorldConfig};
 
+    /// A square with a fold from above, 1 wide, that leaves 1.2 below it.
+    const FOLDED: [Vec2; 8] = [
+        Vec2::new(0.0, 0.0),
+        Vec2::new(10.0, 0.0),
+        Vec2::new(10.0, 10.0),
+        Vec2::new(5.5, 10.0),
+        Vec2::new(5.5, 1.2),
+        Vec2::new(4.5, 1.2),
+        Vec2::new(4.5, 10.0),
+        Vec2::new(0.0, 10.0),
+    ];
+
     #[test]
     fn prey_whose_centre_is_outside_at_the_time_limit_is_expelled() {
         let mut world = World::new(WorldConfig::default()).unwrap();
@@ -215,32 +231,23 @@ mod tests {
     }
 
     #[test]
-    fn prey_that_the_membrane_still_presses_is_on_neither_side() {
+    fn prey_in_a_fold_that_is_narrower_is_on_neither_side() {
         let mut world = World::new(WorldConfig::default()).unwrap();
-        let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 45.0)).unwrap();
-        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(120.0, 45.0)).unwrap();
-        let outline = world.outline_of(world.organisms.get(cell).unwrap());
-        let (edge, radius) = (outline.iter().map(|at| at.x).fold(0.0, f32::max), AgarSpec::default().radius);
-        let mut side = |off: f32| {
-            let by = Vec2::new(edge + off - world.centroid(prey).unwrap().x, 0.0);
+        let spec = AgarSpec { radius: 0.9, ..AgarSpec::default() };
+        let prey = world.spawn(&spec.into(), Placement::at(120.0, 45.0)).unwrap();
+        let mut side = |x: f32, y: f32| {
+            let by = Vec2::new(x, y) - world.centroid(prey).unwrap();
             world.discs_of(prey).collect::<Vec<_>>().into_iter().for_each(|i| shift(&mut world.particles, i, by));
-            world.side_of_prey(prey, &outline, 0.3)
+            world.side_of_prey(prey, &FOLDED, 0.3)
         };
-        let needed = radius + 0.3;
-        let sides = [0.1, 0.4 * needed, 0.6 * needed, -0.5 * needed, -1.1 * needed].map(&mut side);
-        assert_eq!(
-            sides,
-            [PreySide::Between, PreySide::Between, PreySide::Outside, PreySide::Between, PreySide::Inside]
-        );
+        assert_eq!(side(5.0, 6.0), PreySide::Between, "in the fold");
+        assert_eq!([side(5.0, 10.5), side(10.2, 5.0)], [PreySide::Outside; 2], "at its mouth, and beside the cell");
+        assert_eq!([side(9.5, 5.0), side(2.0, 5.0)], [PreySide::Between, PreySide::Inside]);
     }
 
     #[test]
     fn nothing_is_moved_into_a_fold_that_leaves_no_room() {
-        // A square with a fold from above, 1 wide, that leaves 1.2 below it.
-        let outline =
-            [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.5, 10.0), (5.5, 1.2), (4.5, 1.2), (4.5, 10.0), (0.0, 10.0)];
-        let outline = outline.map(|(x, y)| Vec2::new(x, y));
-        let way = |x: f32, y: f32, inside| way_to_side(&outline, Vec2::new(x, y), 1.0, inside);
+        let way = |x: f32, y: f32, inside| way_to_side(&FOLDED, Vec2::new(x, y), 1.0, inside);
         assert_eq!(way(4.5, 6.0, false), None, "the other side of the fold is too near");
         assert_eq!(way(4.5, 6.0, true), Some(Vec2::new(-1.0, 0.0)));
         assert_eq!(way(0.2, 5.0, false), Some(Vec2::new(-1.2, 0.0)));
