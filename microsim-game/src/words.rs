@@ -230,6 +230,12 @@ pub fn number(value: f32, decimals: usize) -> String {
     format!("{value:.decimals$}").replace('.', current().decimal)
 }
 
+/// A time that something took, s, in tenths, rounded up: one that is shown as within a limit is.
+#[must_use]
+pub fn time_taken(time: f32) -> String {
+    number((10.0 * time).ceil() / 10.0, 1)
+}
+
 /// A number with as many decimals as it has.
 #[must_use]
 pub fn shortest(value: f32) -> String {

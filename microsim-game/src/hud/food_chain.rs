@@ -207,6 +207,12 @@ mod tests {
     }
 
     #[test]
+    fn a_size_that_is_shown_is_reached() {
+        let told = |size| summary(9.0, [size, 2.0], 0);
+        assert_eq!([1.99, 2.0].map(told), ["1.9", "2.0"].map(|size| format!("Lived 9 s   Size {size}, new body at 2")));
+    }
+
+    #[test]
     fn an_amoeba_of_the_same_size_has_a_sign_where_it_is_seen() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();

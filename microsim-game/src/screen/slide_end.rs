@@ -116,11 +116,6 @@ fn items(played: Paused, is_won: bool) -> Vec<Item> {
     items
 }
 
-/// A time in tenths of a second that it did not exceed: one that is shown as within a limit is.
-fn tenths(time: f32) -> String {
-    words::number((10.0 * time).ceil() / 10.0, 1)
-}
-
 fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
     let slide = slides::told(attempt.slide());
     let heading = |text| (TextSize::Large, HALO, doubted(text, is_mismatch));
@@ -131,7 +126,7 @@ fn told(attempt: &Attempt, is_best: bool, is_mismatch: bool) -> Vec<Paragraph> {
         let why = if attempt.is_lost() { Key::SlideEndTaken } else { Key::SlideEndLate };
         return vec![heading(words::text(why).to_owned()), left];
     };
-    let mut told = vec![heading(words::text_with(Key::SlideEndDone, &[("time", (&tenths(time)).into())]))];
+    let mut told = vec![heading(words::text_with(Key::SlideEndDone, &[("time", (&words::time_taken(time)).into())]))];
     let next = slide.stars.iter().rev().find(|longest| time > **longest);
     if let Some(longest) = next {
         told.push((

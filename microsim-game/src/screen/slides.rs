@@ -61,7 +61,7 @@ impl Screen for SlideList {
 
 /// What is said of a slide that was done in this time, s: the task, and the time of the next star; if there is none, its fact.
 fn note_of(slide: &Slide, time: f32) -> String {
-    let best = words::number(time, 1);
+    let best = words::time_taken(time);
     let Some(longest) = slide.stars.iter().rev().find(|longest| time > **longest) else {
         let args = [("time", (&best).into()), ("fact", (&slide.fact).into()), ("source", (&slide.source).into())];
         return words::text_with(Key::SlidesBest, &args);

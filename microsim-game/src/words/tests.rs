@@ -153,3 +153,8 @@ fn a_table_of_another_version_is_refused_and_one_that_comes_late_is_taken() {
     choose(other, || Some(vec![0; COUNT]));
     assert_eq!(current().code, "xx");
 }
+
+#[test]
+fn a_time_that_is_shown_as_within_a_limit_is() {
+    assert_eq!([15.0, 15.02, 14.99].map(time_taken), ["15.0", "15.1", "15.0"]);
+}
