@@ -47,14 +47,13 @@ impl World {
         if is_cell || elapsed < PLACED_AFTER * params.time_limit {
             return side;
         }
-        match self.place_prey(meal.prey, !meal.is_expelled, &outline, clearance) {
-            false => side,
-            true if meal.is_expelled => PreySide::Outside,
-            true => PreySide::Inside,
+        if !self.place_prey(meal.prey, !meal.is_expelled, &outline, clearance) {
+            return side;
         }
+        if meal.is_expelled { PreySide::Outside } else { PreySide::Inside }
     }
 
-    /// Moves all discs of prey to one side of an outline, each to the nearest point there, if all have room.
+    /// Moves all discs of prey to one side of an outline, each to the nearest point there, if all have room; returns whether they have.
     fn place_prey(&mut self, prey: OrganismId, inside: bool, outline: &[Vec2], clearance: f32) -> bool {
         let discs: Vec<usize> = self.discs_of(prey).collect();
         let ways = discs.iter().map(|&i| {
@@ -111,11 +110,8 @@ impl World {
             let distance = || (nearest_edge(outline, position).0 - position).length();
             let needed = self.particles.radius[i] + clearance;
             inside &= is_within && distance() >= needed;
-            let is_free = || match prey.is_cell() {
-                true => distance() >= OUTSIDE * needed,
-                false => way_to_side(outline, position, needed, false).is_some(),
-            };
-            outside &= !is_within && is_free();
+            let has_room = || way_to_side(outline, position, needed, false).is_some();
+            outside &= !is_within && if prey.is_cell() { distance() >= OUTSIDE * needed } else { has_room() };
         }
         match (inside, outside) {
             (true, _) => PreySide::Inside,
