@@ -109,13 +109,26 @@ fn modes_are_told_apart_and_known_by_name() {
 #[test]
 fn a_picture_is_the_same_in_any_portions() {
     let world = world();
-    for optics in Optics::ALL {
-        let exposure = Microscope { optics, film: Film::CINE }.expose(&world, EVERYTHING).unwrap();
-        let whole = exposure.rows(0..144);
+    let field = Field { pixels: [256, 141], ..EVERYTHING };
+    for (optics, film) in Optics::ALL.into_iter().flat_map(|optics| [(optics, Film::CINE), (optics, Film::PHOTO)]) {
+        let exposure = Microscope { optics, film }.expose(&world, field).unwrap();
+        let whole = exposure.rows(0..141);
         let parts: Vec<u8> =
-            [0..1, 1..50, 50..143, 143..900].into_iter().flat_map(|rows| exposure.rows(rows)).collect();
+            [0..1, 1..50, 50..140, 140..900].into_iter().flat_map(|rows| exposure.rows(rows)).collect();
         assert!(whole == parts, "{}", optics.name());
         assert!(exposure.rows(200..300).is_empty() && exposure.rows(9..9).is_empty());
+    }
+}
+
+#[test]
+fn a_colour_camera_changes_colours_and_loses_little() {
+    let world = world();
+    let shoot = |film| Microscope { optics: Optics::STAINED, film }.expose(&world, EVERYTHING).unwrap().rows(0..144);
+    let plain = shoot(Film { has_mosaic: false, coding_quality: 0, ..Film::PHOTO });
+    for film in [Film { coding_quality: 0, ..Film::PHOTO }, Film { has_mosaic: false, ..Film::PHOTO }] {
+        let apart = shoot(film).iter().zip(&plain).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>();
+        let mean = apart / plain.len() as f64;
+        assert!((0.5..12.0).contains(&mean), "{mean}");
     }
 }
 
@@ -157,6 +170,7 @@ fn absurd_sizes_and_films_are_refused_by_name() {
         (Film { gradient: 0.6, ..Film::CINE }, "film.gradient"),
         (Film { dust: 1.1, ..Film::CINE }, "film.dust"),
         (Film { sharpening: f32::NAN, ..Film::CINE }, "film.sharpening"),
+        (Film { coding_quality: 101, ..Film::CINE }, "film.coding_quality"),
     ] {
         assert_eq!(refused(Microscope { film, ..microscope }, EVERYTHING), name);
     }

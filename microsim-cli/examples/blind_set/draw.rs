@@ -52,7 +52,7 @@ pub(crate) fn ours(optics: Option<Optics>, rng: &mut Rng) -> Outcome<Crop> {
     let width = pixel * FIELD as f32;
     let margin = Vec2::splat(0.5 * width).min(0.5 * size);
     let centre = aim(&world, width, rng).clamp(margin, size - margin);
-    let film = Film::DIGITAL;
+    let film = if optics == Optics::STAINED { Film::PHOTO } else { Film::DIGITAL };
     let field = Field { centre, width, pixels: [FIELD as u32; 2] };
     let exposure = Microscope { optics, film }.expose(&world, field)?;
     let mut bytes = exposure.rows(0..FIELD);

@@ -6,17 +6,19 @@
 //! ours they are as frequent as among the references, whose files are named after theirs. All crops have the same size, are of
 //! larger fields, grey ones of which have the same share of black and white pixels, and went through the same lossy coding.
 
-mod coding;
 mod crop;
 mod draw;
 
 use microsim_core::Rng;
+use microsim_core::microscope::coding::code;
 use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Side of a crop, pixels.
 const SIDE: usize = 256;
+/// Quality of the coding that all crops go through.
+const QUALITY: u8 = 75;
 /// Crops in a row of the sheet, and pixels between them.
 const COLUMNS: usize = 6;
 const GAP: usize = 4;
@@ -52,7 +54,7 @@ fn main() -> Outcome<()> {
     for last in (1..crops.len()).rev() {
         crops.swap(last, pick(&mut rng, last + 1));
     }
-    crops.iter_mut().for_each(|crop| coding::degrade(&mut crop.bytes, SIDE));
+    crops.iter_mut().for_each(|crop| code(&mut crop.bytes, SIDE, QUALITY));
     write(&folder, &crops)
 }
 

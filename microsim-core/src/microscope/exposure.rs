@@ -1,5 +1,6 @@
 //! A picture being taken: from matter to bytes, in rows.
 
+use super::coding::{BLOCK, code};
 use super::field::Field;
 use super::film::{Film, FilmFrame, MASK};
 use super::maths::{larger, mix};
@@ -8,6 +9,7 @@ use super::optics::sampler::{REACH, Sampler};
 use super::optics::{Mode, Optics, PixelShader, Shader};
 use super::painting::Painting;
 use super::raster::{PixelGrid, bilinear, blur};
+use super::sensor::interpolate;
 use super::specimen::Specimen;
 use super::surround_wave::{self, SurroundWave};
 use crate::error::Error;
@@ -40,6 +42,7 @@ enum ImageSource {
 pub struct Exposure {
     source: ImageSource,
     mode: &'static Mode,
+    film: Film,
     frame: FilmFrame,
     pixels: [usize; 2],
     /// Grid of the image: the picture's, or a coarser one that the picture enlarges, and a margin around it.
@@ -73,7 +76,7 @@ impl Microscope {
                 ImageSource::Lit { specimen, surround, shader }
             }
         };
-        Ok(Exposure { source, mode, frame, pixels: [columns, rows], image, margin, picture })
+        Ok(Exposure { source, mode, film: self.film, frame, pixels: [columns, rows], image, margin, picture })
     }
 
     /// The frame of film at the time of a view; checks every number.
@@ -110,10 +113,35 @@ impl Exposure {
         if rows.is_empty() {
             return Vec::new();
         }
-        match self.mode.channels {
-            1 => self.record::<1>(rows),
-            _ => self.record::<3>(rows),
+        let [columns, height] = self.pixels;
+        // Whole blocks are coded, and colours interpolated between rows.
+        let whole = match self.film.coding_quality {
+            0 => rows.clone(),
+            _ => rows.start / BLOCK * BLOCK..rows.end.next_multiple_of(BLOCK).min(height),
+        };
+        let mut bytes = self.sensed(whole.clone());
+        if self.film.coding_quality > 0 {
+            code(&mut bytes, columns, self.film.coding_quality);
         }
+        let row = |row: usize| 3 * columns * (row - whole.start);
+        bytes.truncate(row(rows.end));
+        bytes.split_off(row(rows.start))
+    }
+
+    /// Some rows as the sensor gives them.
+    fn sensed(&self, rows: Range<usize>) -> Vec<u8> {
+        let [columns, height] = self.pixels;
+        if self.mode.channels == 1 {
+            return self.record::<1>(rows);
+        }
+        if !self.film.has_mosaic {
+            return self.record::<3>(rows);
+        }
+        let around = rows.start.saturating_sub(1)..height.min(rows.end + 1);
+        let mut bytes = interpolate(&self.record::<3>(around.clone()), columns, around.start);
+        let row = |row: usize| 3 * columns * (row - around.start);
+        bytes.truncate(row(rows.end));
+        bytes.split_off(row(rows.start))
     }
 
     fn record<const N: usize>(&self, rows: Range<usize>) -> Vec<u8> {

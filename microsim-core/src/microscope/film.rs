@@ -36,6 +36,11 @@ pub struct Film {
     pub dust: f32,
     /// Sharpening by an unsharp mask along rows and then along columns: share of the difference that is added each time, 0 to 2.
     pub sharpening: f32,
+    /// Whether a pixel of the sensor sees one colour and the others are interpolated, in optics with colours. Pictures that a card
+    /// draws leave it out.
+    pub has_mosaic: bool,
+    /// Quality of lossy coding ([`coding`](super::coding)), 1 to 100; 0: none. Pictures that a card draws leave it out.
+    pub coding_quality: u8,
 }
 
 impl Film {
@@ -52,6 +57,8 @@ impl Film {
         gradient: 0.02,
         dust: 0.10,
         sharpening: 0.0,
+        has_mosaic: false,
+        coding_quality: 0,
     };
     /// A digital camera.
     pub const DIGITAL: Self = Self {
@@ -66,7 +73,11 @@ impl Film {
         gradient: 0.025,
         dust: 0.11,
         sharpening: 0.25,
+        has_mosaic: false,
+        coding_quality: 0,
     };
+    /// A colour camera on a microscope, as its files are: grain is that of its sensor's pixels.
+    pub const PHOTO: Self = Self { grain: 0.03, blotches: 0.3, has_mosaic: true, coding_quality: 80, ..Self::DIGITAL };
 
     /// Checks every number.
     ///
@@ -84,7 +95,8 @@ impl Film {
         in_range("glare", self.glare, 0.0, 0.5)?;
         in_range("gradient", self.gradient, 0.0, 0.5)?;
         in_range("dust", self.dust, 0.0, 1.0)?;
-        in_range("sharpening", self.sharpening, 0.0, 2.0)
+        in_range("sharpening", self.sharpening, 0.0, 2.0)?;
+        in_range("coding_quality", f32::from(self.coding_quality), 0.0, 100.0)
     }
 
     /// One frame of it, at a time in seconds.

@@ -28,6 +28,7 @@
 //! # Ok::<(), microsim_core::Error>(())
 //! ```
 
+pub mod coding;
 mod exposure;
 mod field;
 mod film;
@@ -40,6 +41,7 @@ mod optics;
 mod painting;
 mod raster;
 pub mod recipe;
+mod sensor;
 mod specimen;
 mod surround_wave;
 mod wave;

@@ -61,6 +61,7 @@ pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
 pub(crate) enum FilmStock {
     Cine,
     Digital,
+    Photo,
 }
 
 impl FilmStock {
@@ -68,6 +69,7 @@ impl FilmStock {
         match self {
             Self::Cine => Film::CINE,
             Self::Digital => Film::DIGITAL,
+            Self::Photo => Film::PHOTO,
         }
     }
 }

@@ -1,0 +1,59 @@
+//! A sensor whose pixels see one colour each (Bayer, US patent 3 971 065): the two others are interpolated.
+
+/// Colour that a pixel of the sensor sees: green on every second one, red and blue in every second row.
+fn seen(x: usize, y: usize) -> usize {
+    match (x % 2, y % 2) {
+        (0, 0) => 0,
+        (1, 1) => 2,
+        _ => 1,
+    }
+}
+
+/// Replaces, in rows of red, green and blue from `top` on, what a pixel does not see by the mean of those around it that do. The
+/// first and the last row should be of no use to the caller unless the picture ends there.
+pub(super) fn interpolate(bytes: &[u8], columns: usize, top: usize) -> Vec<u8> {
+    let rows = bytes.len() / (3 * columns);
+    let pixel = |k: usize| {
+        let (x, y) = (k % columns, k / columns);
+        std::array::from_fn(|colour| {
+            if seen(x, top + y) == colour {
+                return bytes[3 * k + colour];
+            }
+            let around = (y.saturating_sub(1)..rows.min(y + 2))
+                .flat_map(|y| (x.saturating_sub(1)..columns.min(x + 2)).map(move |x| (x, y)))
+                .filter(|&(x, y)| seen(x, top + y) == colour)
+                .map(|(x, y)| u32::from(bytes[3 * (y * columns + x) + colour]));
+            let (sum, count) = around.fold((0, 0), |(sum, count), value| (sum + value, count + 1));
+            // A picture one pixel wide or high may have none.
+            if count == 0 { bytes[3 * k + colour] } else { ((sum + count / 2) / count) as u8 }
+        })
+    };
+    (0..rows * columns).flat_map(|k| -> [u8; 3] { pixel(k) }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_colour_stays_and_a_thin_line_gets_fringes() {
+        let even: Vec<u8> = [200, 120, 60].repeat(5 * 4);
+        assert_eq!(interpolate(&even, 5, 3), even);
+        // A white column on black: the pixels beside it see a part of its light, each in one or two colours.
+        let line: Vec<u8> = (0..6 * 6).flat_map(|k| [if k % 6 == 2 { 255 } else { 0 }; 3]).collect();
+        let seen = interpolate(&line, 6, 0);
+        let at = |x: usize, y: usize| &seen[3 * (y * 6 + x)..][..3];
+        assert_eq!(at(2, 2)[0], 255);
+        assert!(at(3, 2).iter().any(|value| *value > 0) && at(3, 2).windows(2).any(|pair| pair[0] != pair[1]));
+    }
+
+    #[test]
+    fn what_a_pixel_sees_is_kept() {
+        let bytes: Vec<u8> = (0..8 * 6 * 3).map(|k| (k * 37 % 251) as u8).collect();
+        let after = interpolate(&bytes, 8, 0);
+        for (k, (before, after)) in bytes.chunks_exact(3).zip(after.chunks_exact(3)).enumerate() {
+            let colour = seen(k % 8, k / 8);
+            assert_eq!(before[colour], after[colour]);
+        }
+    }
+}
