@@ -24,7 +24,7 @@ impl Trial {
         let scenario = folder.crowd();
         let grid =
             ["--grid", "agar.food.radius=0.8..1.2/5", "--grid", "amoeboid_cell.cell.speed=4,8", "--seeds", "0..19"];
-        let output = success(&[&["sweep", "plan", &scenario, "--steps", "24"], &grid[..]].concat());
+        let output = success(&[&["sweep", "plan", &scenario, "--steps", "8"], &grid[..]].concat());
         assert_eq!(stdout(&output).lines().count(), TASKS);
         let plan = folder.file("plan.jsonl", &output.stdout);
         let mut trial = Self { folder, plan, reference: Vec::new() };
