@@ -25,7 +25,7 @@ pub(super) fn interpolate(bytes: &[u8], columns: usize, top: usize) -> Vec<u8> {
                 .map(|(x, y)| u32::from(bytes[3 * (y * columns + x) + colour]));
             let (sum, count) = around.fold((0, 0), |(sum, count), value| (sum + value, count + 1));
             // A picture one pixel wide or high may have none.
-            if count == 0 { bytes[3 * k + colour] } else { ((sum + count / 2) / count) as u8 }
+            (sum + count / 2).checked_div(count).map_or(bytes[3 * k + colour], |mean| mean as u8)
         })
     };
     (0..rows * columns).flat_map(|k| -> [u8; 3] { pixel(k) }).collect()
