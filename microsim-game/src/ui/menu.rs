@@ -137,6 +137,8 @@ pub fn title_lines(pen: &Pen) -> [f32; 3] {
 pub struct Menu {
     /// Its items.
     pub items: Vec<MenuItem>,
+    /// Whether the first item is seen however far it is scrolled.
+    pub keeps_first: bool,
     focus: usize,
     first: usize,
 }
@@ -145,7 +147,7 @@ impl Menu {
     /// A menu of these items.
     #[must_use]
     pub fn new(items: Vec<MenuItem>) -> Self {
-        Self { items, focus: 0, first: 0 }
+        Self { items, keeps_first: false, focus: 0, first: 0 }
     }
 
     /// The item that the keyboard acts on.
@@ -190,12 +192,18 @@ impl Menu {
                 self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
         }
         let last_first = self.items.len().saturating_sub(layout.visible);
-        self.first = self.first.clamp((self.focus + 1).saturating_sub(layout.visible), self.focus).min(last_first);
+        let highest = self.focus.saturating_sub(usize::from(self.keeps_first));
+        self.first = self.first.clamp((self.focus + 1).saturating_sub(layout.visible), highest).min(last_first);
         choice
     }
 
+    /// The item in a row, counted from the first that is seen.
+    fn in_row(&self, row: usize) -> usize {
+        if self.keeps_first && row == 0 { 0 } else { self.first + row }
+    }
+
     fn click(&mut self, input: &Input, layout: &MenuLayout) -> Option<MenuChoice> {
-        let item = self.first + layout.row(input.cursor)?;
+        let item = self.in_row(layout.row(input.cursor)?);
         if item >= self.items.len() || !(input.has_moved || input.is_clicked) {
             return None;
         }
@@ -222,10 +230,10 @@ impl Menu {
     }
 
     /// The items that are seen, each with its upper left corner.
-    pub fn shown(&self, layout: &MenuLayout) -> impl Iterator<Item = (usize, Vec2)> + use<> {
+    pub fn shown<'a>(&'a self, layout: &MenuLayout) -> impl Iterator<Item = (usize, Vec2)> + use<'a> {
         let (corner, height) = (layout.corner, layout.item.y);
-        let seen = self.first..self.items.len().min(self.first + layout.visible);
-        seen.enumerate().map(move |(row, index)| (index, corner + Vec2::new(0.0, row as f32 * height)))
+        let rows = 0..layout.visible.min(self.items.len() - self.first);
+        rows.map(move |row| (self.in_row(row), corner + Vec2::new(0.0, row as f32 * height)))
     }
 
     /// Draws it.
@@ -305,6 +313,19 @@ mod tests {
         menu.update(&step(Move::Down), &LAYOUT);
         assert_eq!(menu.update(&step(Move::Left), &LAYOUT), Some(MenuChoice::Less(1)));
         assert_eq!(menu.update(&step(Move::Right), &LAYOUT), Some(MenuChoice::Pick(1)));
+    }
+
+    #[test]
+    fn a_first_item_that_is_kept_is_seen_and_clicked_at_wherever_the_focus_is() {
+        let mut menu = Menu { keeps_first: true, ..menu() };
+        for focus in [4, 2, 1, 3, 0, 4] {
+            menu.set_focus(focus);
+            menu.update(&Input::default(), &LAYOUT);
+            let seen: Vec<usize> = menu.shown(&LAYOUT).map(|(item, _)| item).collect();
+            assert!(seen[0] == 0 && seen.contains(&focus) && seen.len() == 3, "{seen:?} with {focus}");
+        }
+        assert_eq!(menu.update(&click(150.0, 75.0), &LAYOUT), Some(MenuChoice::Pick(3)));
+        assert_eq!(menu.update(&click(150.0, 55.0), &LAYOUT), Some(MenuChoice::Pick(0)));
     }
 
     #[test]
