@@ -194,7 +194,8 @@ impl App {
     fn show_buttons(&self) {
         let digests = self.context.settings.hold_to_digest.then_some("digest");
         let divides = self.screens.divides().then_some("divide");
-        let named: Vec<&str> = digests.into_iter().chain(divides).collect();
+        let lunges = self.screens.lunges().then_some("lunge");
+        let named: Vec<&str> = digests.into_iter().chain(divides).chain(lunges).collect();
         platform::show_buttons(self.screens.is_scene(), &named);
     }
 

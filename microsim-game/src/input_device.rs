@@ -43,7 +43,7 @@ impl Device {
             cursor,
             has_moved,
             steer: steer(is_key_down),
-            is_held: is_mouse_button_down(MouseButton::Left),
+            is_held: is_mouse_button_down(MouseButton::Left) || is_mouse_button_down(MouseButton::Right),
             is_clicked: is_mouse_button_pressed(MouseButton::Left),
             // A notch is 1 on some systems and 120 on others.
             wheel: mouse_wheel().1.clamp(-1.0, 1.0),
@@ -58,6 +58,9 @@ impl Device {
             dropped: platform::dropped_files(),
             has_lost_focus: focus.is_lost,
         };
+        if is_mouse_button_pressed(MouseButton::Right) {
+            input.pressed.push(Action::Lunge);
+        }
         self.hand.add(&self.gamepads.read(), is_scene, &mut input);
         input
     }

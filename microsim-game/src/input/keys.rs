@@ -84,6 +84,7 @@ fn usual(action: Action) -> KeyCode {
         Action::Consume => KeyCode::Q,
         Action::ZoomIn => KeyCode::D,
         Action::ZoomOut => KeyCode::A,
+        Action::Lunge => KeyCode::LeftShift,
         Action::Divide => KeyCode::X,
         Action::Pause => KeyCode::Space,
         Action::Step => KeyCode::N,

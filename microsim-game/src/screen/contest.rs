@@ -100,7 +100,8 @@ impl Contest {
         let offer = self.offer();
         let chosen = self.taking.take(input, &context.pen, offer).map(Deed::Choose);
         let divides = self.divides() && input.presses(Action::Divide);
-        if let Some(deed) = chosen.or(divides.then_some(Deed::Divide)) {
+        let lunges = self.lunges() && input.presses(Action::Lunge);
+        if let Some(deed) = chosen.or(divides.then_some(Deed::Divide)).or(lunges.then_some(Deed::Lunge)) {
             self.game.act(deed);
         }
     }
@@ -125,8 +126,8 @@ impl Contest {
         let mut heard = Vec::new();
         viewer.run(pace, 1.0, game, |game| {
             let round = game.session().round();
-            let cell = game.own().and_then(|own| round.players().nth(own));
-            let intent = cell.map_or(Intent::REST, |cell| hands.intent(0, round, cell, goal)).digesting(digests);
+            let own = game.own();
+            let intent = own.map_or(Intent::REST, |own| hands.intent(0, round, own, goal)).digesting(digests);
             let was_equal = game.session().desync().is_none();
             let began = platform::now();
             let is_taken = room.advance(game, intent, clock());
@@ -278,6 +279,7 @@ impl Screen for Contest {
             if let Some(cell) = view.organism(id) {
                 let width = if Some(k) == self.game.own() { 1.0 } else { own::OTHERS };
                 own::draw_own(pen, &style, cell, Some(k + 1), width);
+                own::draw_lunge(pen, &style, cell, round.lunge_of(k));
             }
         }
         places::draw_food(pen, &style, round, view);
@@ -314,6 +316,10 @@ impl Screen for Contest {
 
     fn divides(&self) -> bool {
         living(&self.game).is_some() && self.game.session().round().chain().is_some()
+    }
+
+    fn lunges(&self) -> bool {
+        living(&self.game).is_some() && self.game.session().round().has_lunges()
     }
 
     fn name(&self) -> String {

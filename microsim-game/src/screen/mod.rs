@@ -81,6 +81,11 @@ pub trait Screen: fmt::Debug {
         false
     }
 
+    /// Whether the player can ask its cell to lunge.
+    fn lunges(&self) -> bool {
+        false
+    }
+
     /// Whether leaving it would lose something: a round that is being played, or the place in a room.
     fn is_at_stake(&self) -> bool {
         false

@@ -72,6 +72,12 @@ impl Stack {
         self.screens.last().is_some_and(|screen| screen.divides())
     }
 
+    /// Whether the player can ask its cell to lunge.
+    #[must_use]
+    pub fn lunges(&self) -> bool {
+        self.screens.last().is_some_and(|screen| screen.lunges())
+    }
+
     /// The menu of the topmost screen, unless that waits for a key.
     #[must_use]
     pub fn menu(&self) -> Option<&Menu> {

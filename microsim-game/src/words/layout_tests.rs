@@ -88,6 +88,7 @@ fn longest(key: Key) -> String {
         "player" => player.clone(),
         "what" if [Key::TitleGoal, Key::ChainNext].contains(&key) => text(Key::FeatBites).to_owned(),
         "what" if format!("{key:?}").starts_with("Hint") => text(Key::HintMouse).to_owned(),
+        "what" if key == Key::LessonLunge => longest(Key::HintLungeKey),
         "what" => text(Key::SpawnRigidCell).to_owned(),
         "code" => "ABCDEF012345".to_owned(),
         "file" | "record" | "world" | "aside" => "a-simulation-of-mine.toml".to_owned(),

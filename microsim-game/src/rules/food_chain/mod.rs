@@ -80,6 +80,8 @@ pub enum Deed {
     Choose(usize),
     /// Divides the cell.
     Divide,
+    /// Crawls faster for a moment.
+    Lunge,
 }
 
 impl FoodChain {
@@ -112,6 +114,10 @@ impl FoodChain {
     }
 
     fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId) {
+        let bitten = world.view().organism(of).and_then(line_of);
+        if let Some(line) = bitten.and_then(|line| self.lines.get_mut(line)) {
+            line.biter = Some(by);
+        }
         self.take(world, of, Fate::Eaten);
         // Refused while it divides, or has no room.
         if let Some(line) = world.view().organism(by).and_then(line_of) {
@@ -235,6 +241,13 @@ impl FoodChain {
     #[must_use]
     pub fn fate(&self, player: usize) -> Option<Fate> {
         self.lines.get(player)?.fate
+    }
+
+    /// Who ate the last cell of a line that is gone.
+    #[must_use]
+    pub fn eater(&self, player: usize) -> Option<OrganismId> {
+        let line = self.lines.get(player)?;
+        line.biter.filter(|_| line.fate == Some(Fate::Eaten))
     }
 
     /// How long each line has lived by this time, s.

@@ -112,7 +112,9 @@ fn cells_of_different_players_bite_each_other_and_the_eater_grows() {
         growth += cytoplasm(cell(&round, 1)).saturating_sub(before);
         assert_eq!(round.world().census().leaks, 0);
     }
-    assert_eq!(round.chain().unwrap().fate(0), Some(Fate::Eaten));
+    let chain = round.chain().unwrap();
+    assert_eq!((chain.fate(0), chain.eater(0), chain.eater(1)), (Some(Fate::Eaten), round.players().nth(1), None));
+    assert_eq!(round.eater(), None, "somebody lives on");
     assert!(growth > 0 && !round.is_over(), "the eater lives on, and has grown");
     let [threats, victims] = threats_and_victims(four().world().view(), four().players().next().unwrap());
     assert!(threats.is_empty() && victims.is_empty(), "cells of no line, before the first step");

@@ -75,6 +75,13 @@ impl Play {
         }
     }
 
+    /// The explanation of a mark, or of the lunge.
+    pub(super) fn lesson(&self, lesson: Key, has_buttons: bool) -> String {
+        let of_key = || words::text_with(Key::HintLungeKey, &[("key", (&self.lunge_key).into())]);
+        let what = if has_buttons { words::text(Key::ActionLunge).to_owned() } else { of_key() };
+        words::text_with(lesson, &[("what", (&what).into())])
+    }
+
     /// Whether somebody plays the second cell.
     fn has_two_hands(&self) -> bool {
         matches!(self.two, Some(TwoPlayers::Versus | TwoPlayers::Together))
