@@ -53,6 +53,7 @@ mod tests {
         let kinds = vec![(Kind::Agar, entry(small)), (Kind::RigidCell, entry(rigid))];
         RoundResult {
             scores: vec![0],
+            counts: vec![[small, rigid]],
             score: 10 * (small + rigid),
             time: 90.0,
             kinds,

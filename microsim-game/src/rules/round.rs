@@ -5,6 +5,7 @@ use super::course::Course;
 use super::food_chain::change::Change;
 use super::food_chain::{self, Deed, FoodChain, Life};
 use super::lunge::Lunge;
+use super::prey_class;
 use super::referee::{Gain, KindScore, Referee};
 use super::threat;
 use crate::sound::Cue;
@@ -49,6 +50,8 @@ pub struct RoundResult {
     pub score: u32,
     /// [`Round::scores`].
     pub scores: Vec<u32>,
+    /// How many small things, and how many rigid cells, each player has digested.
+    pub counts: Vec<[u32; 2]>,
     /// Time of the round, s.
     pub time: f32,
     /// How many things were inside, and not digested.
@@ -289,6 +292,7 @@ impl Round {
         RoundResult {
             score: self.referee().score(),
             scores: self.scores(),
+            counts: self.seats.iter().map(|seat| prey_class::counts(seat.referee.kinds())).collect(),
             time: self.referee().game().time,
             undigested: self.undigested(),
             kinds: self.referee().kinds().to_vec(),

@@ -3,7 +3,7 @@
 use super::bot::{Bot, Policy};
 use super::seating::{OBSTACLES, seat};
 use super::verdict::verdict;
-use crate::words::{Key, text_with};
+use crate::words::{self, Key, text_with};
 
 /// Name of its scenario.
 pub const NAME: &str = "two-under-glass";
@@ -54,16 +54,22 @@ impl TwoPlayers {
         (self == Self::Bot).then(|| Bot::new(Policy::Greedy, seed))
     }
 
-    /// What the status says of the points so far.
+    /// What the status says of the points so far, of each player or, the first without one, of all; and by how much somebody leads.
     #[must_use]
-    pub fn summary(self, scores: &[u32]) -> String {
-        match (self, scores) {
-            (Self::Together, _) => text_with(Key::TwoSum, &[("points", scores.iter().sum::<u32>().into())]),
-            (Self::Bot, [own, program, ..]) => {
-                text_with(Key::TwoBotSum, &[("own", (*own).into()), ("program", (*program).into())])
-            }
-            _ => (1..).zip(scores).map(|(k, points)| format!("{k}: {points}")).collect::<Vec<_>>().join("   "),
+    pub fn summary(self, scores: &[u32]) -> Vec<(Option<usize>, String)> {
+        if self == Self::Together {
+            return vec![(None, text_with(Key::TwoSum, &[("points", scores.iter().sum::<u32>().into())]))];
         }
+        let of = |(k, &points): (usize, &u32)| {
+            let best_other = (0..).zip(scores).filter(|(other, _)| *other != k).map(|(_, points)| *points).max();
+            let lead = best_other.and_then(|other| points.checked_sub(other)).filter(|lead| *lead > 0);
+            let name = match self {
+                Self::Bot => words::text([Key::TwoYou, Key::TwoProgram][k.min(1)]).to_owned(),
+                _ => (k + 1).to_string(),
+            };
+            (Some(k), format!("{name}: {points}{}", lead.map_or_else(String::new, |lead| format!(" (+{lead})"))))
+        };
+        scores.iter().enumerate().map(of).collect()
     }
 
     /// What the end says. Players without a name have a number.
@@ -176,6 +182,18 @@ mod tests {
         let first = play(&mut round, 200);
         round.clone_from(&kept);
         assert_eq!(play(&mut round, 200), first);
+    }
+
+    #[test]
+    fn the_status_has_a_part_for_each_player_and_says_who_leads() {
+        let told = |way: TwoPlayers, scores: &[u32]| {
+            let parts = way.summary(scores).into_iter();
+            parts.map(|(player, text)| format!("{player:?} {text}")).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(told(TwoPlayers::Versus, &[30, 50]), "Some(0) 1: 30, Some(1) 2: 50 (+20)");
+        assert_eq!(told(TwoPlayers::Versus, &[50, 50, 10]), "Some(0) 1: 50, Some(1) 2: 50, Some(2) 3: 10");
+        assert_eq!(told(TwoPlayers::Bot, &[70, 50]), "Some(0) You: 70 (+20), Some(1) Program: 50");
+        assert_eq!(told(TwoPlayers::Together, &[70, 50]), "None Together 120");
     }
 
     #[test]

@@ -301,7 +301,7 @@ impl Screen for Contest {
             (self.game.plan().way.summary(round), [referee.time_left(), referee.game().time])
         };
         let life = looked_at.and_then(|cell| chain_scene::status(round, cell));
-        let (score, time) = life.unwrap_or_else(of_points);
+        let (score, time) = life.map_or_else(of_points, |(told, time)| (vec![(None, told)], time));
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
         match (self.offer(), advice) {
             (Some(offered), _) => offer::draw(pen, offered),

@@ -1,6 +1,7 @@
 //! What all screens share: the pen, the settings, the scores and the message.
 
 use super::photo_view::PhotoView;
+use super::two_players_end::RoundsWon;
 use super::{MainScreen, Paused};
 use crate::album::Album;
 use crate::camera::Camera;
@@ -13,6 +14,7 @@ use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
 use crate::rules::food_chain::feats::Feats;
 use crate::rules::lesson::Lessons;
+use crate::rules::two_players::TwoPlayers;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
@@ -126,6 +128,8 @@ pub struct AppContext {
     pub files: Vec<SceneSource>,
     /// The last round that was played to its end, as a replay.
     pub last_game: Option<Vec<u8>>,
+    /// The rounds of two players that were won since the program began.
+    pub(super) rounds_won: RoundsWon,
     /// Which of its players this one was, as far as that is known.
     pub(super) last_seat: usize,
     /// What was explained so far.
@@ -182,6 +186,7 @@ impl AppContext {
             files,
             last_game,
             last_seat: 0,
+            rounds_won: (TwoPlayers::Versus, [0; 2]),
             lessons: Lessons::default(),
             chosen: None,
             party: Party::default(),

@@ -229,11 +229,8 @@ impl FoodChain {
     #[must_use]
     pub fn life(&self, world: &World, kinds: &[(Kind, KindScore)]) -> Option<Life> {
         let (time, line) = (self.lives(world.time() as f32).next()?, self.lines.first()?);
-        let count = |is_rigid: bool| {
-            let of_sort = kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
-            of_sort.map(|(_, entry)| entry.count).sum()
-        };
-        let feats = Feats { time: time as u32, small: count(false), cells: count(true), ..line.feats };
+        let [small, cells] = prey_class::counts(kinds);
+        let feats = Feats { time: time as u32, small, cells, ..line.feats };
         Some(Life { time, fate: line.fate, feats, seed: world.config().seed })
     }
 
