@@ -64,6 +64,7 @@ effort-low = nízká
 ## Klávesy
 
 keys-press = stiskni klávesu
+keys-letters = WASD řídí
 keys-usual = Obvyklé klávesy
 keys-refused = Tuto klávesu nelze použít. Escape ponechá původní.
 action-consume = Trávit (držet)

@@ -62,6 +62,7 @@ effort-low = low
 ## Keys
 
 keys-press = press a key
+keys-letters = WASD steers
 keys-usual = Usual keys
 keys-refused = This key cannot be used. Escape leaves it as it was.
 action-consume = Digest (hold)
