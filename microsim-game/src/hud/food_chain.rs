@@ -184,7 +184,7 @@ mod tests {
             pen.canvas().corners().fold([f32::MAX, 0.0], |[low, high], (at, ..)| [low.min(at.y), high.max(at.y)])
         };
         let status = heights(|pen| {
-            draw_status(pen, &Status { score: &[(None, "1".to_owned())], time: [9.0, 60.0], is_calm: true, note: "" })
+            draw_status(pen, &Status { score: &[(None, "1".to_owned())], time: [9.0, 60.0], is_calm: true, note: "" });
         });
         let bitten = heights(draw_bitten);
         assert!(status[1] <= bitten[0] && bitten[1] < 180.0, "{status:?} {bitten:?}");

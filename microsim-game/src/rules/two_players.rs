@@ -88,6 +88,38 @@ impl TwoPlayers {
     }
 }
 
+/// What the scores of two who play together are kept as.
+#[must_use]
+pub fn together() -> String {
+    format!("{NAME}, together")
+}
+
+/// Who has more points than all others.
+#[must_use]
+pub fn winner(scores: &[u32]) -> Option<usize> {
+    let best = scores.iter().max()?;
+    let mut best_ones = (0..scores.len()).filter(|&k| scores[k] == *best);
+    best_ones.next().filter(|_| best_ones.next().is_none())
+}
+
+/// The rounds that were won one after the other in one way, by the first and by the second player.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RoundsWon(Option<TwoPlayers>, [u32; 2]);
+
+impl RoundsWon {
+    /// Counts a round, from the beginning if it was played in another way than the last one, and tells how it stands.
+    pub fn count(&mut self, way: TwoPlayers, winner: Option<usize>) -> String {
+        if self.0 != Some(way) {
+            *self = Self(Some(way), [0; 2]);
+        }
+        if let Some(count) = winner.and_then(|winner| self.1.get_mut(winner)) {
+            *count += 1;
+        }
+        let [first, second] = self.1;
+        text_with(Key::TwoWon, &[("first", first.into()), ("second", second.into())])
+    }
+}
+
 /// The scenario for so many players, 2 to 4.
 #[must_use]
 pub fn text(players: usize) -> String {
@@ -194,6 +226,16 @@ mod tests {
         assert_eq!(told(TwoPlayers::Versus, &[50, 50, 10]), "Some(0) 1: 50, Some(1) 2: 50, Some(2) 3: 10");
         assert_eq!(told(TwoPlayers::Bot, &[70, 50]), "Some(0) You: 70 (+20), Some(1) Program: 50");
         assert_eq!(told(TwoPlayers::Together, &[70, 50]), "None Together 120");
+    }
+
+    #[test]
+    fn rounds_are_counted_while_two_go_on_in_the_same_way() {
+        let mut won = RoundsWon::default();
+        let mut after = |way, scores: &[u32]| won.count(way, winner(scores));
+        assert_eq!(after(TwoPlayers::Versus, &[10, 20]), "Rounds won: 0 to 1");
+        assert_eq!(after(TwoPlayers::Versus, &[10, 10]), "Rounds won: 0 to 1", "a draw");
+        assert_eq!(after(TwoPlayers::Versus, &[30, 10]), "Rounds won: 1 to 1");
+        assert_eq!(after(TwoPlayers::Bot, &[30, 10]), "Rounds won: 1 to 0");
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! What all screens share: the pen, the settings, the scores and the message.
 
 use super::photo_view::PhotoView;
-use super::two_players_end::RoundsWon;
 use super::{MainScreen, Paused};
 use crate::album::Album;
 use crate::camera::Camera;
@@ -14,7 +13,7 @@ use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
 use crate::rules::food_chain::feats::Feats;
 use crate::rules::lesson::Lessons;
-use crate::rules::two_players::TwoPlayers;
+use crate::rules::two_players::RoundsWon;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
@@ -186,7 +185,7 @@ impl AppContext {
             files,
             last_game,
             last_seat: 0,
-            rounds_won: (TwoPlayers::Versus, [0; 2]),
+            rounds_won: RoundsWon::default(),
             lessons: Lessons::default(),
             chosen: None,
             party: Party::default(),

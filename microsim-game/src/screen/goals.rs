@@ -2,10 +2,10 @@
 
 use super::context::AppContext;
 use super::page::draw_heading;
-use super::two_players_end::together;
 use super::{Next, Screen};
 use crate::draw::palette::{HALO, INK, READY, fade};
 use crate::input::{Input, Move};
+use crate::rules::two_players::together;
 use crate::slides::SLIDES;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;

@@ -3,11 +3,11 @@
 use super::context::AppContext;
 use super::join::LONGEST;
 use super::page::draw_heading;
-use super::two_players_end::together;
 use super::{Next, Overlay, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};
 use crate::rules::food_chain::NAME;
+use crate::rules::two_players::together;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};

@@ -7,23 +7,18 @@ use super::{MainScreen, Next, Paused, Screen};
 use crate::draw::palette::{HALO, PLAYERS, READY};
 use crate::input::Input;
 use crate::rules::round::RoundResult;
-use crate::rules::two_players::{NAME, TwoPlayers};
+use crate::rules::two_players::{TwoPlayers, together, winner};
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::menu::{Menu, MenuLayout};
 use crate::ui::pen::{Align, Pen};
-use crate::words::{self, Key};
+use crate::words::Key;
 use macroquad::color::Color;
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the text, and above the menu.
 const TOP: f32 = 0.12;
 const MENU_TOP: f32 = 0.62;
-
-/// What the scores of two who play together are kept as.
-pub(super) fn together() -> String {
-    format!("{NAME}, together")
-}
 
 #[derive(Debug)]
 pub(super) struct TwoPlayersEnd {
@@ -70,7 +65,7 @@ impl TwoPlayersEnd {
                 let (place, kept) = context.scores.add(all, &context.store);
                 (place.map(rank), kept)
             } else {
-                (Some(count_round(&mut context.rounds_won, way, winner)), Ok(()))
+                (Some(context.rounds_won.count(way, winner)), Ok(()))
             };
             context.keep_game(record, kept);
             note
@@ -78,28 +73,6 @@ impl TwoPlayersEnd {
         let menu = EndMenu::new(&[Key::EndAgain, Key::EndWatch, Key::Title]);
         Self { heading, note, table, winner, way, menu }
     }
-}
-
-/// Who has more points than all others.
-fn winner(scores: &[u32]) -> Option<usize> {
-    let best = scores.iter().max()?;
-    let mut best_ones = (0..scores.len()).filter(|&k| scores[k] == *best);
-    best_ones.next().filter(|_| best_ones.next().is_none())
-}
-
-/// The rounds that were won one after the other in one way: by the first and by the second player.
-pub(super) type RoundsWon = (TwoPlayers, [u32; 2]);
-
-/// Counts a round, from the beginning if it was played in another way than the last one, and tells how it stands.
-pub(super) fn count_round(won: &mut RoundsWon, way: TwoPlayers, winner: Option<usize>) -> String {
-    if won.0 != way {
-        *won = (way, [0; 2]);
-    }
-    if let Some(count) = winner.and_then(|winner| won.1.get_mut(winner)) {
-        *count += 1;
-    }
-    let [first, second] = won.1;
-    words::text_with(Key::TwoWon, &[("first", first.into()), ("second", second.into())])
 }
 
 fn colour_of(player: usize) -> Color {
@@ -154,20 +127,5 @@ impl Screen for TwoPlayersEnd {
 
     fn name(&self) -> String {
         format!("two-players-end-{}", self.table.iter().map(|score| score.points).sum::<u32>())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounds_are_counted_while_two_go_on_in_the_same_way() {
-        let mut won = (TwoPlayers::Versus, [0; 2]);
-        let mut after = |way, scores: &[u32]| count_round(&mut won, way, winner(scores));
-        assert_eq!(after(TwoPlayers::Versus, &[10, 20]), "Rounds won: 0 to 1");
-        assert_eq!(after(TwoPlayers::Versus, &[10, 10]), "Rounds won: 0 to 1", "a draw");
-        assert_eq!(after(TwoPlayers::Versus, &[30, 10]), "Rounds won: 1 to 1");
-        assert_eq!(after(TwoPlayers::Bot, &[30, 10]), "Rounds won: 1 to 0");
     }
 }
