@@ -42,8 +42,9 @@ impl ScoreList {
     }
 }
 
-impl Screen for ScoreList {
-    fn update(&mut self, input: &Input, _: &mut AppContext) -> Next {
+impl ScoreList {
+    /// Shows the next list, and after the last one the goals.
+    fn turn(&mut self, input: &Input) -> Next {
         if input.step == Some(Move::Back) || self.at == self.pages.len() {
             return Next::Back;
         }
@@ -54,6 +55,12 @@ impl Screen for ScoreList {
             }
         }
         Next::Stay
+    }
+}
+
+impl Screen for ScoreList {
+    fn update(&mut self, input: &Input, _: &mut AppContext) -> Next {
+        self.turn(input)
     }
 
     fn draw(&mut self, context: &mut AppContext) {
@@ -117,4 +124,22 @@ pub(super) fn draw_table(
         }
     }
     room
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_come_one_after_the_other_and_then_the_goals_which_lead_back() {
+        let page = || (String::new(), Key::ScoresPoints, Vec::new());
+        let mut list = ScoreList { pages: vec![page(), page()], at: 0 };
+        let enter = Input { step: Some(Move::Confirm), ..Input::default() };
+        assert!(matches!(list.turn(&enter), Next::Stay) && list.at == 1);
+        assert!(matches!(list.turn(&Input::default()), Next::Stay) && list.at == 1);
+        assert!(matches!(list.turn(&enter), Next::Open(Overlay::Goals)));
+        assert!(matches!(list.turn(&Input::default()), Next::Back));
+        let mut list = ScoreList { pages: vec![page()], at: 0 };
+        assert!(matches!(list.turn(&Input { step: Some(Move::Back), ..Input::default() }), Next::Back));
+    }
 }
