@@ -5,7 +5,7 @@ use crate::draw::palette::ALERT;
 use crate::hud::marks::Style;
 use crate::hud::{food_chain, own};
 use crate::rules::food_chain::change::line_of;
-use crate::rules::food_chain::{Fate, FoodChain, equals, threats_and_victims};
+use crate::rules::food_chain::{Fate, FoodChain, others};
 use crate::rules::lesson::FirstDeed;
 use crate::rules::round::Round;
 use crate::rules::threat::{Other, engulfers};
@@ -70,7 +70,7 @@ pub(super) fn seen(round: &Round, player: Option<usize>) -> Option<OrganismId> {
 
 /// Whether somebody is near who can bite a cell.
 pub(super) fn is_hunted(round: &Round, view: View<'_>, cell: OrganismId) -> bool {
-    round.chain().is_some() && threats_and_victims(view, cell)[0].iter().any(|threat| threat.distance < HUNTED)
+    round.chain().is_some() && others(view, cell)[0].iter().any(|threat| threat.distance < HUNTED)
 }
 
 /// Marks who ate the own cell, or says at the place of its end that it starved.
@@ -107,8 +107,9 @@ pub(super) fn draw(
         food_chain::draw_others(pen, style, view, &[threats, Vec::new()]);
         return;
     };
-    food_chain::draw_others(pen, style, view, &threats_and_victims(view, cell));
-    food_chain::draw_equals(pen, style, &equals(view, cell));
+    let [threats, victims, equals] = others(view, cell);
+    food_chain::draw_others(pen, style, view, &[threats, victims]);
+    food_chain::draw_equals(pen, style, &equals);
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
     if is_played && chain.is_bitten(cell) {

@@ -265,29 +265,22 @@ impl FoodChain {
     }
 }
 
-/// The amoebae of no line or another one that can bite a cell, and those that it can bite, the nearest first.
+/// The amoebae of no line or another one, the nearest first: those that can bite a cell, those that it can bite, and those that do neither.
 #[must_use]
-pub fn threats_and_victims(view: View<'_>, player: OrganismId) -> [Vec<Other>; 2] {
-    let Some(cell) = view.organism(player) else { return [Vec::new(), Vec::new()] };
-    let amoebae =
-        || view.organisms().filter(|other| other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell));
-    let mut found = [
-        amoebae().filter(|other| can_bite(*other, cell)).map(|other| Other::seen(other, cell)).collect::<Vec<_>>(),
-        amoebae().filter(|other| can_bite(cell, *other)).map(|other| Other::seen(other, cell)).collect(),
-    ];
+pub fn others(view: View<'_>, player: OrganismId) -> [Vec<Other>; 3] {
+    let mut found = [const { Vec::new() }; 3];
+    let Some(cell) = view.organism(player) else { return found };
+    let is_other = |other: &OrganismView<'_>| other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell);
+    for other in view.organisms().filter(is_other) {
+        let sort = match (can_bite(other, cell), can_bite(cell, other)) {
+            (true, _) => 0,
+            (false, true) => 1,
+            (false, false) => 2,
+        };
+        found[sort].push(Other::seen(other, cell));
+    }
     found.iter_mut().for_each(|others| others.sort_by(|a, b| a.distance.total_cmp(&b.distance)));
     found
-}
-
-/// The amoebae of no line or another one that can neither bite a cell nor be bitten by it.
-#[must_use]
-pub fn equals(view: View<'_>, player: OrganismId) -> Vec<Other> {
-    let Some(cell) = view.organism(player) else { return Vec::new() };
-    let is_equal = |other: &OrganismView<'_>| {
-        let is_other = other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell);
-        is_other && !can_bite(*other, cell) && !can_bite(cell, *other)
-    };
-    view.organisms().filter(is_equal).map(|other| Other::seen(other, cell)).collect()
 }
 
 #[cfg(test)]
