@@ -193,9 +193,9 @@ impl App {
 
     fn show_buttons(&self) {
         let digests = self.context.settings.hold_to_digest.then_some("digest");
-        let divides = self.screens.divides().then_some("divide");
-        let lunges = self.screens.lunges().then_some("lunge");
-        let named: Vec<&str> = digests.into_iter().chain(divides).chain(lunges).collect();
+        let deeds = ["divide", "lunge"].into_iter().zip(self.screens.deeds());
+        let deeds = deeds.filter(|(_, is_possible)| *is_possible).map(|(name, _)| name);
+        let named: Vec<&str> = digests.into_iter().chain(deeds).collect();
         platform::show_buttons(self.screens.is_scene(), &named);
     }
 

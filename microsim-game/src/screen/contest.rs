@@ -99,9 +99,9 @@ impl Contest {
     fn act(&mut self, input: &mut Input, context: &AppContext) {
         let offer = self.offer();
         let chosen = self.taking.take(input, &context.pen, offer).map(Deed::Choose);
-        let divides = self.divides() && input.presses(Action::Divide);
-        let lunges = self.lunges() && input.presses(Action::Lunge);
-        if let Some(deed) = chosen.or(divides.then_some(Deed::Divide)).or(lunges.then_some(Deed::Lunge)) {
+        let possible = [(Action::Divide, Deed::Divide), (Action::Lunge, Deed::Lunge)].into_iter().zip(self.deeds());
+        let mut pressed = possible.filter(|((action, _), is_possible)| *is_possible && input.presses(*action));
+        if let Some(deed) = chosen.or_else(|| Some(pressed.next()?.0.1)) {
             self.game.act(deed);
         }
     }
@@ -126,8 +126,7 @@ impl Contest {
         let mut heard = Vec::new();
         viewer.run(pace, 1.0, game, |game| {
             let round = game.session().round();
-            let own = game.own();
-            let intent = own.map_or(Intent::REST, |own| hands.intent(0, round, own, goal)).digesting(digests);
+            let intent = game.own().map_or(Intent::REST, |own| hands.intent(0, round, own, goal)).digesting(digests);
             let was_equal = game.session().desync().is_none();
             let began = platform::now();
             let is_taken = room.advance(game, intent, clock());
@@ -314,12 +313,8 @@ impl Screen for Contest {
         true
     }
 
-    fn divides(&self) -> bool {
-        living(&self.game).is_some() && self.game.session().round().chain().is_some()
-    }
-
-    fn lunges(&self) -> bool {
-        living(&self.game).is_some() && self.game.session().round().has_lunges()
+    fn deeds(&self) -> [bool; 2] {
+        [living(&self.game).is_some() && self.game.session().round().chain().is_some(); 2]
     }
 
     fn name(&self) -> String {

@@ -227,12 +227,8 @@ fn digestion_key(settings: &Settings, has_buttons: bool) -> Option<String> {
 }
 
 impl Screen for Play {
-    fn divides(&self) -> bool {
-        self.round.chain().is_some() && !self.round.is_replay()
-    }
-
-    fn lunges(&self) -> bool {
-        self.round.has_lunges()
+    fn deeds(&self) -> [bool; 2] {
+        [self.round.chain().is_some() && !self.round.is_replay(), self.round.has_lunges()]
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
