@@ -272,7 +272,6 @@ impl Screen for Contest {
         context.paint(view, camera);
         let (time, advice) = (context.motion(), self.advice(context));
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: None };
-        let is_calm = context.settings.reduced_motion;
         let pen = &mut context.pen;
         for (k, id) in round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
@@ -301,7 +300,7 @@ impl Screen for Contest {
         };
         let life = looked_at.and_then(|cell| chain_scene::status(round, cell));
         let (score, time) = life.map_or_else(of_points, |(told, time)| (vec![(None, told)], time));
-        hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
+        hud::draw_status(pen, &Status { score: &score, time, is_calm: style.time.is_none(), note: &note });
         match (self.offer(), advice) {
             (Some(offered), _) => offer::draw(pen, offered),
             (None, Some(advice)) => hud::draw_advice(pen, &advice, platform::covered_height()),
