@@ -5,7 +5,7 @@ use microsim_core::Intent;
 use microsim_core::scenario::{Scenario, builtin};
 use microsim_game::rules::bot::{Bot, Policy};
 use microsim_game::rules::chain_bot::{ChainBot, Skill};
-use microsim_game::rules::food_chain;
+use microsim_game::rules::food_chain::{self, Deed};
 use microsim_game::rules::round::Round;
 use microsim_game::rules::slide_bot::SlideBot;
 use microsim_game::rules::two_players;
@@ -15,6 +15,8 @@ use std::sync::Mutex;
 
 /// Steps between two looks.
 const INTERVAL: u64 = 15;
+/// Steps between two lunges.
+const LUNGES: u64 = 240;
 /// Longest life in the food chain, s.
 const LONGEST: f64 = 300.0;
 
@@ -104,6 +106,10 @@ fn modes() -> Vec<(String, String, Play)> {
 fn play(round: &Round, mut step: impl FnMut(&mut Round)) -> (f64, Option<String>) {
     let mut round = round.clone();
     while !round.is_over() && round.world().time() < LONGEST {
+        if round.world().step_index().is_multiple_of(LUNGES) {
+            // Refused where there are none, or not yet.
+            (0..round.players().count()).for_each(|player| round.act(player, Deed::Lunge));
+        }
         step(&mut round);
         if round.world().step_index().is_multiple_of(INTERVAL) {
             let census = round.world().census();

@@ -193,8 +193,9 @@ impl App {
 
     fn show_buttons(&self) {
         let digests = self.context.settings.hold_to_digest.then_some("digest");
-        let divides = self.screens.divides().then_some("divide");
-        let named: Vec<&str> = digests.into_iter().chain(divides).collect();
+        let deeds = ["divide", "lunge"].into_iter().zip(self.screens.deeds());
+        let deeds = deeds.filter(|(_, is_possible)| *is_possible).map(|(name, _)| name);
+        let named: Vec<&str> = digests.into_iter().chain(deeds).collect();
         platform::show_buttons(self.screens.is_scene(), &named);
     }
 

@@ -37,7 +37,7 @@ Options:
   -h, --help             Print help
   -V, --version          Print version
 
-CONTROLS: hold the left mouse button: crawl there | A, D or wheel: zoom out, in | Space: pause
+CONTROLS: hold the left mouse button: crawl there | A, D or wheel: zoom out, in | left Shift: lunge | Space: pause
           R: restart | F11: full screen | F12: picture | Escape: menu. Keys can be changed in the settings.
 
 EXIT CODE: 0 fine, 1 no display or a file that cannot be written, 2 a bad argument or scenario

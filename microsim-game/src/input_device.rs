@@ -1,7 +1,7 @@
 //! Mouse, keyboard and gamepads.
 
 use crate::input::gamepad::Hand;
-use crate::input::keys::Keys;
+use crate::input::keys::{Keys, LETTERS};
 use crate::input::{Action, Input, Move};
 use crate::{convert, platform};
 use macroquad::input::{
@@ -42,8 +42,8 @@ impl Device {
         let mut input = Input {
             cursor,
             has_moved,
-            steer: steer(is_key_down),
-            is_held: is_mouse_button_down(MouseButton::Left),
+            steer: steer(is_key_down, keys.letters_steer()),
+            is_held: is_mouse_button_down(MouseButton::Left) || is_mouse_button_down(MouseButton::Right),
             is_clicked: is_mouse_button_pressed(MouseButton::Left),
             // A notch is 1 on some systems and 120 on others.
             wheel: mouse_wheel().1.clamp(-1.0, 1.0),
@@ -58,6 +58,9 @@ impl Device {
             dropped: platform::dropped_files(),
             has_lost_focus: focus.is_lost,
         };
+        if is_mouse_button_pressed(MouseButton::Right) {
+            input.pressed.push(Action::Lunge);
+        }
         self.hand.add(&self.gamepads.read(), is_scene, &mut input);
         input
     }
@@ -80,11 +83,12 @@ const MOVES: [(KeyCode, Move); 7] = [
     (KeyCode::Escape, Move::Back),
 ];
 
-/// Where the arrow keys point that are down.
-fn steer(is_down: impl Fn(KeyCode) -> bool) -> Vec2 {
-    let ways =
-        [(KeyCode::Up, -Vec2::Y), (KeyCode::Down, Vec2::Y), (KeyCode::Left, -Vec2::X), (KeyCode::Right, Vec2::X)];
-    ways.into_iter().filter(|(key, _)| is_down(*key)).map(|(_, way)| way).sum::<Vec2>().normalize_or_zero()
+/// Where the arrow keys point that are down, and letters where they steer.
+fn steer(is_down: impl Fn(KeyCode) -> bool, by_letters: bool) -> Vec2 {
+    let arrows = [KeyCode::Up, KeyCode::Left, KeyCode::Down, KeyCode::Right];
+    let ways = [-Vec2::Y, -Vec2::X, Vec2::Y, Vec2::X];
+    let is_held = |k: usize| is_down(arrows[k]) || by_letters && is_down(LETTERS[k]);
+    (0..ways.len()).filter(|&k| is_held(k)).map(|k| ways[k]).sum::<Vec2>().normalize_or_zero()
 }
 
 /// Listens for the loss of the keyboard, which miniquad reports as being minimised.
@@ -109,10 +113,13 @@ mod tests {
 
     #[test]
     fn arrow_keys_steer_in_eight_directions_and_opposite_ones_cancel() {
-        let held = |keys: &'static [KeyCode]| steer(|key| keys.contains(&key));
+        let held = |keys: &'static [KeyCode]| steer(|key| keys.contains(&key), false);
         assert_eq!(held(&[]), Vec2::ZERO);
         assert_eq!(held(&[KeyCode::Left]), -Vec2::X);
         assert!((held(&[KeyCode::Up, KeyCode::Right]) - Vec2::new(0.5_f32.sqrt(), -(0.5_f32.sqrt()))).length() < 1e-6);
         assert_eq!(held(&[KeyCode::Up, KeyCode::Down]), Vec2::ZERO);
+        let letters = |by_letters| LETTERS.map(|letter| steer(|key| key == letter, by_letters));
+        assert_eq!(letters(false), [Vec2::ZERO; 4]);
+        assert_eq!(letters(true), [-Vec2::Y, -Vec2::X, Vec2::Y, Vec2::X]);
     }
 }

@@ -179,6 +179,8 @@ fn who_is_taken_in_by_a_larger_amoeba_loses_and_it_is_played_again_to_the_bit() 
     let attempt = round.attempt().unwrap();
     assert!(round.is_over() && attempt.is_lost() && attempt.stars() == 0, "{} s", round.world().time());
     assert!(round.world().kind(round.player()).is_none() && round.heard().any(|cue| cue == Cue::End));
+    let predator = round.eater().and_then(|eater| round.world().kind(eater));
+    assert_eq!(predator, Some(Kind::AmoeboidCell), "it is still there to be seen");
     let replay = Replay::read(&round.record().unwrap()).unwrap();
     let again = play(Round::again(&replay).unwrap(), 90.0, |_| Vec::new());
     assert_eq!((again.attempt(), again.mismatch()), (round.attempt(), None));

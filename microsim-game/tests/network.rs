@@ -256,9 +256,15 @@ fn a_match_of_the_whole_scene_of_the_food_chain_is_the_same_for_all() {
     let time = ("game.time".to_owned(), "2".to_owned());
     let start = Round::new(&Scenario::parse(&food_chain::text(4), &[time]).unwrap()).unwrap();
     let mut game = Match::of(start, 2.0, Pacing::USUAL, ROUGH, 8);
-    game.deed = |member, frame| (frame == 10 + member as u32).then_some(Deed::Divide);
+    game.deed = |member, frame| match frame.checked_sub(member as u32) {
+        Some(4) => Some(Deed::Lunge),
+        Some(10) => Some(Deed::Divide),
+        _ => None,
+    };
     game.play();
     game.check();
+    let recovers = |session: &Session| (0..4).all(|player| session.round().lunge_of(player).recovered().is_some());
+    assert!(game.sessions.iter().all(recovers), "each has lunged");
 }
 
 #[test]

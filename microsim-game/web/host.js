@@ -176,7 +176,7 @@ const fingers = matchMedia("(pointer: coarse)");
 function showButtons(areWanted, which) {
     isScene = areWanted;
     element("buttons").hidden = !(areWanted && fingers.matches);
-    for (const name of ["digest", "divide"]) element(name).hidden = !which.split(" ").includes(name);
+    for (const name of ["digest", "divide", "lunge"]) element(name).hidden = !which.split(" ").includes(name);
 }
 
 function newItem(k) {

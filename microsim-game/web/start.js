@@ -161,6 +161,8 @@ function connectKeys() {
         // From a menu the key goes on through the page; in a scene it is the game's.
         if (event.code === "Tab" && !isScene && !element("items").hidden) event.stopImmediatePropagation();
     });
+    // The right button lunges.
+    canvasElement.oncontextmenu = (event) => event.preventDefault();
     canvasElement.addEventListener("pointerdown", () => {
         element("menu").open = false;
         canvasElement.focus();

@@ -49,10 +49,10 @@ settings-keys = Keys
 settings-name = Name
 settings-quality-about = How much work goes into the picture. Automatic: as much as this machine can do.
 settings-motion-about = On: nothing moves or blinks for decoration.
-settings-digestion-about = On: what is inside is digested only while a key is held.
-settings-crawl-about = On: a click starts the crawl, the next one stops it.
+settings-digestion-about = On: you digest only while you hold a key.
+settings-crawl-about = On: one click starts your crawl, the next one stops it.
 settings-pace-about = How fast time passes in a round: slower is easier.
-settings-arrows-about = On: the green arrow is shown even where there is no room inside.
+settings-arrows-about = On: the green arrow is shown even when you are full.
 settings-unknown-language = The settings have an unknown language, { $language }.
 effort-automatic = automatic
 effort-high = high
@@ -62,11 +62,13 @@ effort-low = low
 ## Keys
 
 keys-press = press a key
+keys-letters = WASD steers
 keys-usual = Usual keys
 keys-refused = This key cannot be used. Escape leaves it as it was.
 action-consume = Digest (hold)
 action-zoom-in = Zoom in
 action-zoom-out = Zoom out
+action-lunge = Lunge
 action-divide = Divide (food chain)
 action-pause = Pause
 action-step = Single step
@@ -96,7 +98,12 @@ hud-digested = Digested { $counts }
 hud-lived = Lived { $time } s   Size { $size }, new body at { $next }
 hud-second-life = second life: { $sisters }
 hud-bitten = Bitten: get away!
-hud-undivided = Your cell cannot divide now: it is too small, or takes something in.
+hud-undivided = Your cell cannot divide now: it is too small, or is taking something in.
+hud-eaten-by-rival = A rival ate you
+hud-eaten-by-giant = A giant ate you
+hud-starved = You starved
+hud-lunge-early = Not yet: your cell has to recover from its lunge.
+hud-lunge-small = Your cell cannot lunge now: it is too small, or divides.
 hud-full = full
 hud-replay = Replay
 hud-replay-differs = Replay, not as it was played
@@ -109,18 +116,20 @@ hint-begin = Time starts then.
 hint-tempo = { $slower }: slower. { $faster }: faster. { $stop }: stop.
 hint-crawl = Hold { $what } to crawl.
 hint-eat = Push your front against food, and stay on it.
-hint-last = Only what is digested in time counts.
+hint-last = Only what you digest in time counts.
 hint-two-players = Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.
-hint-taken = A larger amoeba takes you in: you cannot move, and it digests you.
-hint-chain-clock = Without food you shrink, and starve: the clock shows how long yours lasts.
-hint-chain-rivals = Rivals are coming, after your scent. A ring: you can eat it. A warning sign: it eats you. "=": neither.
-hint-chain-giant = Giants are coming, after your scent. Flee: rivals fit through the gaps, giants do not.
+hint-taken = A larger amoeba is taking you in. You cannot move, and it will digest you.
+hint-chain-clock = Without food you shrink and starve. The clock shows how long you can last.
+hint-chain-rivals = Rivals follow your scent. A ring: you can eat it. A warning sign: it eats you. "=": neither.
+hint-chain-giant = Giants follow your scent. Flee through a gap: rivals fit through, giants do not.
 hint-chain-ghost = The pale outline is your longest life in this water.
 hint-chain-divide = { $key } divides your cell: the sister is a second life.
 hint-chain-button = The button
 lesson-ready = A green arrow: you are large enough to take this cell in.
-lesson-too-large = Ciliates are the best food. The box over one fills as you grow for it: small food makes you grow.
-lesson-no-room = "full": only one such cell has room inside. Digest it first.
+lesson-too-large = Ciliates are the best food. Eat small food to grow: the box over a ciliate fills until you can take it in.
+lesson-no-room = "full": you have room for one such cell. Digest it first.
+lesson-lunge = { $what }: twice as fast for a moment. It costs a little of your body.
+hint-lunge-key = { $key } or the right mouse button
 lesson-optics = { $key } changes the optics: the same cells look different in each.
 
 ## Ends
@@ -139,11 +148,11 @@ kind-cocci = cocci
 kind-rods = rods
 kind-rigid-cells = ciliates
 missed-undigested = { $count ->
-    [one] One thing inside was not digested: only what is digested counts.
-   *[other] { $count } things inside were not digested: only what is digested counts.
+    [one] One thing was still inside: only what you digest counts.
+   *[other] { $count } things were still inside: only what you digest counts.
 }
-missed-all = Nothing was taken in: crawl with your front against food, and stay on it.
-missed-rigid = You took in no ciliate: take one under a green arrow.
+missed-all = You took nothing in. Push your front against food, and stay on it.
+missed-rigid = You took in no ciliate. Take one under a green arrow.
 missed-rigid-most = You took in no ciliate, and they count most. Grow on small food until a green arrow is over one.
 goal-better = Next: more than { $points }
 goal-first = Next: the first points
@@ -157,7 +166,8 @@ scores-leave = Enter or a click: back
 scores-points = points
 scores-small = small
 scores-cells = ciliates
-scores-others = Food chain: { $time } s   Slides: { $stars } of { $all } stars
+scores-seconds = seconds
+scores-next = Enter or a click: next. Escape: back
 
 ## Slides
 
@@ -187,6 +197,10 @@ chain-goals-new = New goals reached: { $new }, in all { $done } of { $all }
 chain-next = Next goal: { $what }, { $done } of { $least } in one life
 goals-title = Goals
 goals-most = best { $most }
+goal-points = points in one game
+goal-ciliates = ciliates in one game
+goal-stars = stars on slides
+goal-together = points of two together
 feat-changes = changes of the body
 feat-time = seconds alive
 feat-small = small food
@@ -238,7 +252,9 @@ two-versus = Against each other
 two-together = Together
 two-bot = Against the program
 two-sum = Together { $points }
-two-bot-sum = You: { $own }   Program: { $program }
+two-you = You
+two-program = Program
+two-won = Rounds won: { $first } to { $second }
 two-player = Player { $number }
 two-wins = { $name } wins, { $best } to { $others }
 two-you-win = You win, { $best } to { $others }
@@ -292,7 +308,7 @@ room-entering = Code { $code }. On the way to the server ...
 room-cut = the connection to the server is cut
 room-unreachable = cannot reach { $host }: { $error }
 room-none = { $host } has no rooms
-room-strange = the server says what no server of rooms says
+room-strange = the server gives a strange answer
 room-code = a code has 4 to 12 letters and digits
 
 ## A match over a network
@@ -347,6 +363,12 @@ tool-wall = Wall
 tool-field = Field
 field-vortex = vortex
 field-stream = stream
+panel-move = Move
+panel-bodies = Bodies
+panel-look = Look
+panel-build = Build
+panel-time = Time
+panel-scene = Scene
 panel-undo = Undo
 panel-speed = Speed
 panel-scenarios = Scenarios
@@ -380,15 +402,15 @@ sandbox-legend =
     dot: left  ring: right
     tint: chemical
     amber: contact
-sandbox-stopped = Time stands still: let it go on first.
+sandbox-stopped = Time is stopped. Let it go on first.
 sandbox-no-undo = There is nothing to undo.
-sandbox-nobody = There is nobody to steer: follow somebody first.
-sandbox-immobile = Whoever is followed cannot crawl.
+sandbox-nobody = You follow nobody: follow somebody first.
+sandbox-immobile = What you follow cannot crawl.
 sandbox-nothing = There is nothing here.
 sandbox-short = Drag from one end to the other.
 sandbox-occupied = Something is in the way here.
-sandbox-whole = All of the room is in view: look closer first.
-sandbox-free = Nobody is followed now.
+sandbox-whole = You see the whole room. Zoom in first.
+sandbox-free = You follow nobody now.
 sandbox-overlap = No room here: { $what }
 sandbox-outside = Outside the walls: { $what }
 sandbox-crowded = The room is full.
@@ -403,13 +425,13 @@ quality-drawn = that of the drawn view
 file-written = Saved as { $file }
 file-unwritable = cannot write { $file }: { $error }
 file-unreadable = cannot read { $file }: { $error }
-file-not-text = it is no text in UTF-8
+file-not-text = it is not text in UTF-8
 file-senseless = { $file } makes no sense
 file-unfit = { $file } does not work as a simulation: { $problem }
 error-missing = it is not there
 error-forbidden = access is denied
 error-full = there is no room left
-error-no-file = it is no file
+error-no-file = it is not a file
 error-too-long = it is too long
 error-silent = nobody answers there
 error-other = the system refuses it
@@ -447,6 +469,7 @@ page-reload = Start again
 page-menu = Menu
 page-zoom-out = Zoom out
 page-zoom-in = Zoom in
+page-lunge = Lunge
 page-divide = Divide
 page-digest = Digest
 page-more = Files, links and privacy

@@ -161,6 +161,14 @@ pub fn draw_bitten(pen: &mut Pen) {
     );
 }
 
+/// Writes at a place of the room what became of the player's cell.
+pub fn draw_fate(pen: &mut Pen, style: &Style<'_>, place: Vec2, text: Key) {
+    let (text, line, screen) = (words::text(text), pen.line(TextSize::Large), pen.screen());
+    let half = (0.5 * pen.width(TextSize::Large, text) + 0.5 * line).min(0.5 * screen.x);
+    let at = style.camera.to_screen(place).clamp(Vec2::new(half, 2.2 * line), screen - Vec2::new(half, 1.6 * line));
+    pen.label(at, TextSize::Large, Align::Centre, ALERT, text);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -175,10 +183,28 @@ mod tests {
             draw(&mut pen);
             pen.canvas().corners().fold([f32::MAX, 0.0], |[low, high], (at, ..)| [low.min(at.y), high.max(at.y)])
         };
-        let status =
-            heights(|pen| draw_status(pen, &Status { score: "1", time: [9.0, 60.0], is_calm: true, note: "" }));
+        let status = heights(|pen| {
+            draw_status(pen, &Status { score: &[(None, "1".to_owned())], time: [9.0, 60.0], is_calm: true, note: "" });
+        });
         let bitten = heights(draw_bitten);
         assert!(status[1] <= bitten[0] && bitten[1] < 180.0, "{status:?} {bitten:?}");
+    }
+
+    #[test]
+    fn what_became_of_the_cell_is_written_inside_the_picture_in_all_languages() {
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(640.0, 360.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        for language in &words::LANGUAGES {
+            words::choose(language, || None);
+            for key in [Key::HudEatenByRival, Key::HudEatenByGiant, Key::HudStarved, Key::SlideEndTaken] {
+                let (mut pen, measure) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
+                assert!(measure(TextSize::Large, words::text(key)) < 600.0, "{}", words::text(key));
+                draw_fate(&mut pen, &style, Vec2::new(200.0, 0.0), key);
+                let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
+                let inside = |at: Vec2| at.cmpge(Vec2::ZERO).all() && at.cmple(pen.screen()).all();
+                assert!(!corners.is_empty() && corners.into_iter().all(inside));
+            }
+        }
     }
 
     fn drawn(draw: impl Fn(&mut Pen, &Style<'_>)) -> Pen {

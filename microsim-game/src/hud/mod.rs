@@ -8,7 +8,7 @@ pub mod places;
 pub mod pulse;
 pub mod tint;
 
-use crate::draw::palette::{ALERT, HALO, INK, READY, fade};
+use crate::draw::palette::{ALERT, HALO, INK, PLAYERS, READY, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use microsim_core::glam::Vec2;
@@ -22,8 +22,8 @@ const COUNTED_SECONDS: f32 = 5.0;
 /// What the status line says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Status<'a> {
-    /// Points so far, or which goals are reached.
-    pub score: &'a str,
+    /// Points so far, or which goals are reached: parts that are each about one of several players, or about all.
+    pub score: &'a [(Option<usize>, String)],
     /// Time left and time in all, s.
     pub time: [f32; 2],
     /// Whether nothing may flash.
@@ -43,9 +43,17 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let colour = if is_late { ALERT } else { READY };
     pen.canvas().rectangle(Vec2::ZERO, Vec2::new(bar.x * share, bar.y), colour);
     let middle = bar.y + 0.75 * line;
-    let fits = |size: &TextSize| pen.width(*size, status.score) <= 0.7 * screen.x;
+    let step = |pen: &Pen, size, part: &str| pen.width(size, part) + 0.9 * pen.line(size);
+    let width = |size| status.score.iter().map(|(_, part)| step(pen, size, part)).sum::<f32>();
+    let fits = |size: &TextSize| width(*size) <= 0.75 * screen.x;
     let size = [TextSize::Large, TextSize::Body].into_iter().find(fits).unwrap_or(TextSize::Small);
-    pen.label(Vec2::new(0.3 * line, middle), size, Align::Left, HALO, status.score);
+    let score = width(size);
+    let mut left_edge = 0.3 * line;
+    for (player, part) in status.score {
+        let colour = player.map_or(HALO, |player| PLAYERS[player % PLAYERS.len()].1);
+        pen.label(Vec2::new(left_edge, middle), size, Align::Left, colour, part);
+        left_edge += step(pen, size, part);
+    }
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));
@@ -54,7 +62,7 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
         pen.label(at, TextSize::Large, Align::Centre, ALERT, &(left.ceil() as u32).to_string());
     }
     if !status.note.is_empty() {
-        let beside = pen.width(size, status.score).max(pen.width(TextSize::Large, &clock(left))) + line;
+        let beside = score.max(pen.width(TextSize::Large, &clock(left))) + line;
         let width = pen.width(TextSize::Body, status.note);
         // Below the score, where it would cover it.
         let y = if width + 2.0 * beside > screen.x { middle + line } else { middle };
@@ -107,10 +115,27 @@ mod tests {
     }
 
     #[test]
+    fn points_of_players_have_their_colours_side_by_side() {
+        let (mut pen, _) = Pen::measured(Vec2::new(1280.0, 720.0), 1.0);
+        let score = [30, 50].map(|points| points.to_string());
+        let [first, second] = [0, 1].map(|k| (Some(k), score[k].clone()));
+        let panels = |pen: &mut Pen, score: &[(Option<usize>, String)]| {
+            draw_status(pen, &Status { score, time: [50.0, 60.0], is_calm: true, note: "" });
+            let left = pen.canvas().corners().map(|(at, ..)| at).filter(|at| at.y > 9.0 && at.x < 640.0);
+            left.map(|at| at.x).fold(0.0, f32::max)
+        };
+        let one = panels(&mut pen, std::slice::from_ref(&first));
+        assert!(panels(&mut pen, &[first, second]) > one + 20.0);
+    }
+
+    #[test]
     fn the_last_seconds_are_counted_in_the_middle() {
         let middle = |left: f32| {
             let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.0);
-            draw_status(&mut pen, &Status { score: "1", time: [left, 60.0], is_calm: true, note: "" });
+            draw_status(
+                &mut pen,
+                &Status { score: &[(None, "1".to_owned())], time: [left, 60.0], is_calm: true, note: "" },
+            );
             let at: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
             at.into_iter().filter(|at| at.x > 280.0 && at.x < 360.0 && at.y > 40.0).count()
         };

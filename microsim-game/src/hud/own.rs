@@ -2,6 +2,7 @@
 
 use super::marks::Style;
 use crate::draw::palette::{HALO, INK, PLAYERS, fade};
+use crate::rules::lunge::Lunge;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use macroquad::color::Color;
@@ -12,6 +13,8 @@ use microsim_core::glam::Vec2;
 pub const OTHERS: f32 = 0.6;
 /// Width of the rim of a cell that is bitten, lines of text.
 pub const BITTEN: f32 = 0.24;
+/// Width of the rim of who has eaten the player's cell.
+pub const EATER: f32 = 0.4;
 
 /// Draws the rim in the colour of the player; of several players also a tint of it all over the cell, and the number. The rim
 /// is `width` times as wide as that of the own cell usually is.
@@ -41,6 +44,27 @@ pub fn draw_rim(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, colour
     }
 }
 
+/// Draws streaks behind a cell that lunges, and a ring around one that recovers, which closes until it can lunge again.
+pub fn draw_lunge(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, lunge: Lunge) {
+    let Some(share) = lunge.recovered() else { return };
+    let unit = pen.line(TextSize::Body);
+    let at = style.camera.to_screen(cell.centroid());
+    let radius = 0.7 * cell.cytoplasm_area().sqrt() * style.camera.scale();
+    let front = cell.front().filter(|_| lunge.is_on()).map(|front| style.camera.to_screen(front));
+    let Some(ahead) = front.map(|front| (front - at).normalize_or_zero()) else {
+        pen.canvas().arc(at, radius + 0.4 * unit, 0.24 * unit, 1.0, fade(INK, 0.4));
+        pen.canvas().arc(at, radius + 0.4 * unit, 0.12 * unit, share, HALO);
+        return;
+    };
+    for side in [-0.5, 0.0, 0.5] {
+        let from = at - radius * (1.2 * ahead - side * ahead.perp());
+        let to = from - radius * (1.0 - side.abs()) * ahead;
+        for (width, colour) in [(0.24, fade(INK, 0.4)), (0.12, HALO)] {
+            pen.canvas().segment(from, to, width * unit, colour);
+        }
+    }
+}
+
 /// Draws the outline of a ghost: every other segment, pale.
 pub fn draw_ghost(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
     let outline: Vec<Vec2> = cell.surface().into_iter().map(|at| style.camera.to_screen(at)).collect();
@@ -56,7 +80,9 @@ pub fn draw_ghost(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>) {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use microsim_core::{AmoeboidCellSpec, Placement, World, WorldConfig};
+    use crate::rules::round::Round;
+    use microsim_core::scenario::Scenario;
+    use microsim_core::{AmoeboidCellSpec, Intent, Placement, World, WorldConfig};
     use std::collections::BTreeSet;
 
     #[test]
@@ -78,6 +104,30 @@ mod tests {
         let dashes: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
         assert!(dashes.len() > corners.len() / 3 && dashes.len() < 2 * corners.len() / 3, "{}", dashes.len());
         assert!(dashes.into_iter().all(is_near));
+    }
+
+    #[test]
+    fn a_cell_that_lunges_has_streaks_behind_it_and_one_that_recovers_a_ring_that_closes() {
+        let text = "schema = 1\nname = \"room\"\n[world]\nsize = [160.0, 90.0]\n[amoeboid_cell.cell]\nradii = [7.0, 7.0]\n\
+                    [[spawn]]\nof = \"cell\"\nplayer = true\nat = [40.0, 45.0]\n[game]\ntime = 60.0\n";
+        let mut round = Round::new(&Scenario::parse(text, &[]).unwrap()).unwrap();
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let mut drawn = |steps: u32, begins: bool| {
+            assert!(!begins || round.lunge(0).is_ok());
+            (0..steps).for_each(|_| round.step(Intent::toward(Vec2::new(150.0, 45.0)).unwrap()));
+            let cell = round.world().view().organism(round.player()).unwrap();
+            let mut pen = Pen::bare();
+            draw_lunge(&mut pen, &style, cell, round.lunge_of(0));
+            let from = camera.to_screen(cell.centroid()).x;
+            pen.canvas().corners().map(|(at, ..)| at.x - from).collect::<Vec<f32>>()
+        };
+        assert!(drawn(60, false).is_empty());
+        let streaks = drawn(20, true);
+        assert!(!streaks.is_empty() && streaks.iter().all(|x| *x < 0.0), "behind: {streaks:?}");
+        let [early, late] = [60, 90].map(|steps| drawn(steps, false).len());
+        assert!(0 < early && early < late, "{early} {late}");
+        assert!(drawn(60, false).is_empty(), "it can lunge again");
     }
 
     #[test]

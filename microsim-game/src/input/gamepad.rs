@@ -13,6 +13,8 @@ pub enum PadButton {
     South,
     /// The right one of them: B.
     East,
+    /// The left and the upper one of them: X and Y, which systems name differently.
+    West,
     /// The right one of two in the middle.
     Start,
     /// Of the cross.
@@ -66,6 +68,7 @@ impl Hand {
 fn action(button: PadButton) -> Option<Action> {
     match button {
         PadButton::East => Some(Action::Divide),
+        PadButton::West => Some(Action::Lunge),
         PadButton::Start => Some(Action::Pause),
         _ => None,
     }
@@ -75,7 +78,7 @@ fn step(button: PadButton, is_scene: bool) -> Option<Move> {
     match button {
         PadButton::South => Some(Move::Confirm),
         PadButton::East => (!is_scene).then_some(Move::Back),
-        PadButton::Start => None,
+        PadButton::Start | PadButton::West => None,
         PadButton::Up => Some(Move::Up),
         PadButton::Down => Some(Move::Down),
         PadButton::Left => Some(Move::Left),
@@ -117,13 +120,13 @@ mod tests {
 
     #[test]
     fn buttons_count_once_and_b_divides_in_a_scene_but_leads_back_in_a_menu() {
-        use PadButton::{East, Right, South, Start, Up};
+        use PadButton::{East, Right, South, Start, Up, West};
         let mut hand = Hand::default();
         let first = read(&mut hand, Vec2::ZERO, &[South, Start], true);
         assert!(first.holds(Action::Consume) && first.presses(Action::Pause) && first.step == Some(Move::Confirm));
-        let second = read(&mut hand, Vec2::ZERO, &[South, Start, East], true);
+        let second = read(&mut hand, Vec2::ZERO, &[South, Start, East, West], true);
         assert!(second.holds(Action::Consume) && !second.presses(Action::Pause));
-        assert!(second.presses(Action::Divide) && second.step.is_none());
+        assert!(second.presses(Action::Divide) && second.presses(Action::Lunge) && second.step.is_none());
         assert_eq!(read(&mut hand, Vec2::ZERO, &[], false), Input::default());
         assert_eq!(read(&mut hand, Vec2::ZERO, &[East], false).step, Some(Move::Back));
         assert_eq!(read(&mut hand, Vec2::ZERO, &[East, Up], false).step, Some(Move::Up));

@@ -19,6 +19,9 @@ const USABLE: [&[KeyCode]; 2] = {
     ]
 };
 
+/// Letters that steer where no action has one of them: up, left, down, right.
+pub const LETTERS: [KeyCode; 4] = [KeyCode::W, KeyCode::A, KeyCode::S, KeyCode::D];
+
 /// The keys of all actions; the settings keep them by name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "BTreeMap<String, String>", into = "BTreeMap<Action, String>")]
@@ -65,6 +68,20 @@ impl Keys {
         name.strip_prefix("Key").unwrap_or(&name).to_owned()
     }
 
+    /// Whether [`LETTERS`] steer.
+    #[must_use]
+    pub fn letters_steer(&self) -> bool {
+        Action::ALL.into_iter().all(|action| !LETTERS.contains(&self.of(action)))
+    }
+
+    /// Gives zooming other keys than letters that steer, or its usual ones.
+    pub fn change_letters(&mut self) {
+        let steers = self.letters_steer();
+        for (action, other) in [(Action::ZoomOut, KeyCode::Minus), (Action::ZoomIn, KeyCode::Equal)] {
+            self.set(action, if steers { usual(action) } else { other });
+        }
+    }
+
     /// Gives a key to an action; the action that had it gets the old key of this one. Returns whether the key can be used.
     pub fn set(&mut self, action: Action, key: KeyCode) -> bool {
         if !USABLE.concat().contains(&key) {
@@ -84,6 +101,7 @@ fn usual(action: Action) -> KeyCode {
         Action::Consume => KeyCode::Q,
         Action::ZoomIn => KeyCode::D,
         Action::ZoomOut => KeyCode::A,
+        Action::Lunge => KeyCode::LeftShift,
         Action::Divide => KeyCode::X,
         Action::Pause => KeyCode::Space,
         Action::Step => KeyCode::N,
@@ -125,6 +143,19 @@ mod tests {
         assert_eq!((keys.of(Action::Consume), keys.of(Action::ZoomOut)), (KeyCode::A, KeyCode::Q));
         assert!(!keys.set(Action::Consume, KeyCode::Escape));
         assert_eq!(keys.label(Action::Consume), "A");
+    }
+
+    #[test]
+    fn letters_steer_where_zooming_has_other_keys() {
+        let mut keys = Keys::default();
+        assert!(!keys.letters_steer());
+        keys.change_letters();
+        assert_eq!((keys.letters_steer(), keys.of(Action::ZoomOut)), (true, KeyCode::Minus));
+        keys.set(Action::Plots, KeyCode::W);
+        assert!(!keys.letters_steer());
+        keys.set(Action::Plots, KeyCode::P);
+        keys.change_letters();
+        assert_eq!(keys, Keys::default());
     }
 
     #[test]

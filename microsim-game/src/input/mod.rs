@@ -22,6 +22,8 @@ pub enum Action {
     ZoomOut,
     /// Become two cells, in the food chain.
     Divide,
+    /// Crawl faster for a moment, in the game and in the food chain.
+    Lunge,
     /// Stop or go on.
     Pause,
     /// One step while stopped.
@@ -50,11 +52,11 @@ pub enum Action {
 
 impl Action {
     /// All of them, in the order of the settings.
-    pub const ALL: [Self; 16] = {
+    pub const ALL: [Self; 17] = {
         use Action::*;
         [
-            Consume, ZoomIn, ZoomOut, Divide, Pause, Step, Slower, Faster, Restart, Optics, DebugView, Plots, Panel,
-            Undo, Screenshot, FullScreen,
+            Consume, ZoomIn, ZoomOut, Lunge, Divide, Pause, Step, Slower, Faster, Restart, Optics, DebugView, Plots,
+            Panel, Undo, Screenshot, FullScreen,
         ]
     };
 
@@ -71,6 +73,7 @@ impl Action {
             Self::Consume => Key::ActionConsume,
             Self::ZoomIn => Key::ActionZoomIn,
             Self::ZoomOut => Key::ActionZoomOut,
+            Self::Lunge => Key::ActionLunge,
             Self::Divide => Key::ActionDivide,
             Self::Pause => Key::ActionPause,
             Self::Step => Key::ActionStep,
@@ -93,6 +96,7 @@ impl Action {
             Self::Consume => "consume",
             Self::ZoomIn => "zoom-in",
             Self::ZoomOut => "zoom-out",
+            Self::Lunge => "lunge",
             Self::Divide => "divide",
             Self::Pause => "pause",
             Self::Step => "step",
@@ -148,9 +152,9 @@ pub struct Input {
     pub has_moved: bool,
     /// Where the arrow keys that are down point, or a gamepad's stick: of length 1 or 0, downwards positive.
     pub steer: Vec2,
-    /// Whether the left button is down.
+    /// Whether the left button is down, or the right one, with which a cell lunges towards the cursor.
     pub is_held: bool,
-    /// Whether it went down in this frame.
+    /// Whether the left one went down in this frame.
     pub is_clicked: bool,
     /// Notches of the wheel, away from the player is positive.
     pub wheel: f32,

@@ -6,7 +6,7 @@ use microsim_core::Intent;
 use serde::{Deserialize, Serialize};
 
 /// Changes with every change of a message.
-const PROTOCOL: u16 = 3;
+const PROTOCOL: u16 = 4;
 /// Longest name, letters.
 const LONGEST_NAME: usize = 24;
 /// Steps of the run whose digest tells whether two programs compute the same worlds.

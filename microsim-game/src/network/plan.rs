@@ -65,10 +65,11 @@ impl Way {
         if let Self::Slide(place) = self { SHARED.get(usize::from(place)) } else { None }
     }
 
-    /// What the status says of the points or goals so far.
+    /// What the status says of the points of each player, or of the goals, so far.
     #[must_use]
-    pub fn summary(self, round: &Round) -> String {
-        round.attempt().map_or_else(|| self.rules().summary(&round.scores()), Attempt::summary)
+    pub fn summary(self, round: &Round) -> Vec<(Option<usize>, String)> {
+        let of_attempt = |attempt: &Attempt| vec![(None, attempt.summary())];
+        round.attempt().map_or_else(|| self.rules().summary(&round.scores()), of_attempt)
     }
 
     /// What the end says.
@@ -141,8 +142,9 @@ mod tests {
             assert_eq!(round.players().count(), players, "{way:?}");
             assert_eq!(round.attempt().is_some(), way.slide().is_some());
             assert_eq!(round.chain().is_some(), way == Way::FoodChain);
-            let told = [way.label(), way.summary(&round), way.verdict(&round, &names)];
-            assert!(told.iter().all(|words| !words.is_empty()), "{told:?}");
+            let told = [way.label(), way.verdict(&round, &names)];
+            let parts = way.summary(&round).into_iter().map(|(_, part)| part);
+            assert!(told.into_iter().chain(parts).all(|words| !words.is_empty()), "{way:?}");
         }
         let strange = Way::Slide(u8::MAX);
         assert!(round_of(strange, 2, 1).is_err() && strange.label().is_empty());

@@ -13,10 +13,11 @@ const STEPS: f32 = 65535.0;
 const GOES: u8 = 1;
 const DIGESTS: u8 = 2;
 const BOT: u8 = 4;
-/// From this bit on, what it does in a food chain: takes the first, second or third change, or divides.
+/// From this bit on, what it does in a food chain: takes the first, second or third change, divides or lunges.
 const DEED: u32 = 3;
 const CHANGES: u8 = 3;
 const DIVIDE: u8 = 4;
+const LUNGE: u8 = 5;
 
 /// An intent as it is sent: all players act on these bytes, and so on the same numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +44,7 @@ impl Told {
             None => 0,
             Some(Deed::Choose(place)) => 1 + (place as u8).min(CHANGES - 1),
             Some(Deed::Divide) => DIVIDE,
+            Some(Deed::Lunge) => LUNGE,
         };
         self.0[4] = self.0[4] & ((1 << DEED) - 1) | code << DEED;
         self
@@ -54,7 +56,8 @@ impl Told {
         match self.0[4] >> DEED {
             0 => None,
             code @ 1..=CHANGES => Some(Deed::Choose(usize::from(code) - 1)),
-            _ => Some(Deed::Divide),
+            DIVIDE => Some(Deed::Divide),
+            _ => Some(Deed::Lunge),
         }
     }
 
@@ -71,7 +74,7 @@ impl Told {
     /// Whether [`Told::new`] makes such bytes.
     pub(super) fn is_sound(self) -> bool {
         let Self([a, b, c, d, flags]) = self;
-        let is_known = flags & BOT == 0 && flags >> DEED <= DIVIDE;
+        let is_known = flags & BOT == 0 && flags >> DEED <= LUNGE;
         self == Self::BOT || is_known && (flags & GOES != 0 || [a, b, c, d] == [0; 4])
     }
 }
@@ -98,13 +101,16 @@ mod tests {
     fn a_deed_comes_back_beside_the_intent() {
         let size = Vec2::new(144.0, 81.0);
         let told = Told::new(Intent::toward(Vec2::ONE).unwrap().digesting(true), size);
-        for deed in [None, Some(Deed::Divide)].into_iter().chain((0..3).map(|place| Some(Deed::Choose(place)))) {
+        for deed in [None, Some(Deed::Divide), Some(Deed::Lunge)]
+            .into_iter()
+            .chain((0..3).map(|place| Some(Deed::Choose(place))))
+        {
             let doing = told.doing(deed);
             assert!(doing.is_sound() && doing.deed() == deed && doing.intent(size) == told.intent(size));
             assert_eq!(doing.doing(None), told);
         }
-        assert!(Told([0, 0, 0, 0, DIVIDE << DEED]).is_sound());
-        for flags in [(DIVIDE + 1) << DEED, 31 << DEED, BOT | DIVIDE << DEED, BOT | 1 << DEED] {
+        assert!(Told([0, 0, 0, 0, LUNGE << DEED]).is_sound());
+        for flags in [(LUNGE + 1) << DEED, 31 << DEED, BOT | DIVIDE << DEED, BOT | 1 << DEED] {
             assert!(!Told([0, 0, 0, 0, flags]).is_sound(), "{flags}");
         }
     }

@@ -18,6 +18,11 @@ pub struct Brake {
 }
 
 impl Brake {
+    /// Where a cell was steered last: of length 1, or 0 before.
+    pub fn heading(&self) -> Vec2 {
+        self.way
+    }
+
     /// Where a cell goes in the next step: where it is steered, or against its motion for a moment after that.
     pub fn intent(&mut self, cell: OrganismView<'_>, goal: Option<Vec2>) -> Intent {
         let at = cell.centroid();

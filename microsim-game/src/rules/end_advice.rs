@@ -53,6 +53,7 @@ mod tests {
         let kinds = vec![(Kind::Agar, entry(small)), (Kind::RigidCell, entry(rigid))];
         RoundResult {
             scores: vec![0],
+            counts: vec![[small, rigid]],
             score: 10 * (small + rigid),
             time: 90.0,
             kinds,
@@ -67,9 +68,9 @@ mod tests {
     #[test]
     fn what_was_missed_is_said_in_the_order_of_what_it_cost() {
         let said = |undigested, small, rigid| missed(&result(undigested, small, rigid)).unwrap_or_default();
-        assert!(said(1, 0, 0).starts_with("One thing inside"));
-        assert!(said(3, 5, 1).starts_with("3 things inside"));
-        assert!(said(0, 0, 0).starts_with("Nothing was taken in"));
+        assert!(said(1, 0, 0).starts_with("One thing was still inside"));
+        assert!(said(3, 5, 1).starts_with("3 things were still inside"));
+        assert!(said(0, 0, 0).starts_with("You took nothing in"));
         assert!(said(0, 5, 0).starts_with("You took in no ciliate"));
         assert_eq!(missed(&result(0, 5, 1)), None);
         let no_rigid = RoundResult { kinds: result(0, 5, 0).kinds[..1].to_vec(), ..result(0, 5, 0) };

@@ -1,12 +1,12 @@
-//! Marks are explained when they are seen first, one at a time.
+//! Marks are explained when they are seen first, and the lunge when it helps first, one at a time.
 
 use super::hint::{Hints, Readiness};
 use crate::words::Key;
 
 /// Time for which an explanation is shown, s.
 const TIME: f32 = 6.0;
-/// What a mark is called here, and its explanation.
-const LESSONS: [Key; 3] = [Key::LessonReady, Key::LessonTooLarge, Key::LessonNoRoom];
+/// The explanation of each mark, and of the lunge.
+const LESSONS: [Key; 4] = [Key::LessonReady, Key::LessonTooLarge, Key::LessonNoRoom, Key::LessonLunge];
 
 /// Time for which a newcomer has to crawl until it is clear that they can, s.
 const CRAWLED: f32 = 1.0;
@@ -49,8 +49,9 @@ impl Lessons {
         }
     }
 
-    /// What to tell now, at a time of the program, s: nothing begins while something else is told in its place.
-    pub fn pass(&mut self, hints: &Hints, time: f32, is_free: bool) -> Option<Key> {
+    /// What to tell now, at a time of the program, s: nothing begins while something else is told in its place. `is_hunted` says
+    /// whether somebody is near from whom a lunge takes the player away; `None` where there are no lunges.
+    pub fn pass(&mut self, hints: &Hints, is_hunted: Option<bool>, time: f32, is_free: bool) -> Option<Key> {
         self.shown = self.shown.filter(|(_, until)| time < *until);
         if self.shown.is_none() && is_free {
             let places = hints.targets.iter().map(|target| match target.readiness {
@@ -58,7 +59,9 @@ impl Lessons {
                 Readiness::TooLarge(_) => 1,
                 Readiness::NoRoom => 2,
             });
-            if let Some(new) = places.filter(|&place| !self.is_told[place]).min() {
+            let is_chase = hints.targets.iter().any(|target| target.readiness == Readiness::Ready);
+            let lunge = is_hunted.filter(|is_hunted| *is_hunted || is_chase).map(|_| 3);
+            if let Some(new) = places.chain(lunge).filter(|&place| !self.is_told[place]).min() {
                 (self.is_told[new], self.shown) = (true, Some((new, time + TIME)));
             }
         }
@@ -83,13 +86,28 @@ mod tests {
         };
         let both = hints(&[Readiness::TooLarge(0.7), Readiness::NoRoom]);
         let mut lessons = Lessons::default();
-        assert_eq!(lessons.pass(&hints(&[]), 0.0, true), None);
-        assert_eq!(lessons.pass(&both, 1.0, true), Some(LESSONS[1]));
-        assert_eq!(lessons.pass(&hints(&[]), 6.9, true), Some(LESSONS[1]));
-        assert_eq!(lessons.pass(&both, 7.1, true), Some(LESSONS[2]));
-        assert_eq!(lessons.pass(&both, 13.2, true), None);
-        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 14.0, true), Some(LESSONS[0]));
-        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), 30.0, true), None);
+        assert_eq!(lessons.pass(&hints(&[]), None, 0.0, true), None);
+        assert_eq!(lessons.pass(&both, None, 1.0, true), Some(LESSONS[1]));
+        assert_eq!(lessons.pass(&hints(&[]), None, 6.9, true), Some(LESSONS[1]));
+        assert_eq!(lessons.pass(&both, None, 7.1, true), Some(LESSONS[2]));
+        assert_eq!(lessons.pass(&both, None, 13.2, true), None);
+        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), None, 14.0, true), Some(LESSONS[0]));
+        assert_eq!(lessons.pass(&hints(&[Readiness::Ready]), None, 30.0, true), None);
+    }
+
+    #[test]
+    fn a_lunge_is_explained_where_there_are_lunges_and_one_helps() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let prey = world.spawn(&AgarSpec::default().into(), Placement::at(30.0, 30.0)).unwrap();
+        let target = PreyTarget { prey, at: Vec2::ZERO, half_extent: 1.0, readiness: Readiness::Ready };
+        let [ready, none] = [vec![target], Vec::new()].map(|targets| Hints { targets, held: Vec::new() });
+        let lunge = Some(Key::LessonLunge);
+        let mut told = Lessons::default();
+        let told = [(0.0, None), (7.0, None), (8.0, Some(false)), (20.0, Some(true))]
+            .map(|(time, hunted)| told.pass(&ready, hunted, time, true));
+        assert_eq!(told, [Some(Key::LessonReady), None, lunge, None]);
+        let mut told = Lessons::default();
+        assert_eq!([Some(false), Some(true)].map(|hunted| told.pass(&none, hunted, 0.0, true)), [None, lunge]);
     }
 
     #[test]
@@ -113,7 +131,7 @@ mod tests {
         let target = PreyTarget { prey, at: Vec2::ZERO, half_extent: 1.0, readiness: Readiness::TooLarge(0.7) };
         let hints = Hints { targets: vec![target], held: Vec::new() };
         let mut lessons = Lessons::default();
-        assert_eq!([0.0, 3.0, 6.9].map(|time| lessons.pass(&hints, time, false)), [None; 3]);
-        assert_eq!([7.1, 13.0].map(|time| lessons.pass(&hints, time, true)), [Some(LESSONS[1]); 2]);
+        assert_eq!([0.0, 3.0, 6.9].map(|time| lessons.pass(&hints, None, time, false)), [None; 3]);
+        assert_eq!([7.1, 13.0].map(|time| lessons.pass(&hints, None, time, true)), [Some(LESSONS[1]); 2]);
     }
 }

@@ -1,5 +1,6 @@
 //! Sorts of prey: small things, and soft cells of which there is room for one only.
 
+use super::referee::KindScore;
 use microsim_core::{Kind, OrganismView, PreyClass};
 
 /// Whether it is taken in by any cell that touches it.
@@ -18,4 +19,13 @@ pub fn is_soft(prey: OrganismView<'_>) -> bool {
 #[must_use]
 pub fn is_rigid(kind: Kind) -> bool {
     kind == Kind::RigidCell
+}
+
+/// How many small things, and how many rigid cells, were digested.
+#[must_use]
+pub fn counts(kinds: &[(Kind, KindScore)]) -> [u32; 2] {
+    [false, true].map(|rigid| {
+        let of_sort = kinds.iter().filter(|(kind, _)| is_rigid(*kind) == rigid);
+        of_sort.map(|(_, entry)| entry.count).sum()
+    })
 }

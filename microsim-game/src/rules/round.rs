@@ -1,13 +1,17 @@
 //! One round: a world, its player and the referee. The intents of mouse and bots are recorded; a replay has its own.
 
 use super::attempt::Attempt;
+use super::course::Course;
 use super::food_chain::change::Change;
 use super::food_chain::{self, Deed, FoodChain, Life};
+use super::lunge::Lunge;
+use super::prey_class;
 use super::referee::{Gain, KindScore, Referee};
 use super::threat;
 use crate::sound::Cue;
+use crate::words::Key;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
-use microsim_core::scenario::{Built, Scenario};
+use microsim_core::scenario::Scenario;
 use microsim_core::{Event, Inputs, Intent, Kind, MealPhase, OrganismId, World};
 use std::num::NonZeroU32;
 
@@ -31,10 +35,11 @@ pub struct Round {
     chain: Option<FoodChain>,
 }
 
-/// One of those who play: its cell, and its score.
+/// One of those who play: its cell, how that stands with its lunges, and its score.
 #[derive(Clone, Debug)]
 struct Seat {
     cell: OrganismId,
+    lunge: Lunge,
     referee: Referee,
 }
 
@@ -45,6 +50,8 @@ pub struct RoundResult {
     pub score: u32,
     /// [`Round::scores`].
     pub scores: Vec<u32>,
+    /// How many small things, and how many rigid cells, each player has digested.
+    pub counts: Vec<[u32; 2]>,
     /// Time of the round, s.
     pub time: f32,
     /// How many things were inside, and not digested.
@@ -59,15 +66,6 @@ pub struct RoundResult {
     pub record: Option<Vec<u8>>,
     /// Whether a replay differed from what was recorded.
     pub is_mismatch: bool,
-}
-
-/// Where the intents of a round come from.
-#[derive(Debug)]
-enum Course {
-    /// Intents as they come, and what is recorded of them.
-    Live { run: Box<Built>, recorder: Recorder, record: Vec<u8> },
-    /// What was recorded, and where the replay first differed from it.
-    Replay { run: Box<Player>, is_over: bool, mismatch: Option<Mismatch> },
 }
 
 impl Round {
@@ -105,7 +103,7 @@ impl Round {
         let cells = std::iter::once(player).chain(others);
         let cells: Vec<OrganismId> = cells.collect();
         let chain = (name == food_chain::NAME).then(|| FoodChain::new(&run.world, &cells));
-        let seat = |cell| Seat { cell, referee: Referee::new(game.clone(), cell, &run.world) };
+        let seat = |cell| Seat { cell, lunge: Lunge::default(), referee: Referee::new(game.clone(), cell, &run.world) };
         let seats = cells.into_iter().map(seat).collect();
         Ok(Self { name: name.to_owned(), course, seats, attempt, chain })
     }
@@ -126,6 +124,7 @@ impl Round {
                 if let Some(chain) = &mut self.chain {
                     chain.before_step(&mut run.world, &cells);
                 }
+                self.seats.iter_mut().for_each(|seat| seat.lunge.before_step(&mut run.world));
                 let mut inputs = Inputs::new();
                 // What is told to a cell that is gone does nothing.
                 cells.iter().zip(intents).for_each(|(cell, intent)| inputs.set(*cell, *intent));
@@ -142,7 +141,7 @@ impl Round {
             },
         }
         let world = &self.course.run().world;
-        for (player, Seat { cell, referee }) in self.seats.iter_mut().enumerate() {
+        for (player, Seat { cell, referee, .. }) in self.seats.iter_mut().enumerate() {
             referee.after_step(world);
             if let Some(chain) = &mut self.chain {
                 *cell = chain.after_step(world, player, *cell);
@@ -168,7 +167,35 @@ impl Round {
                 }
             }
             Deed::Divide => self.divide(player),
+            Deed::Lunge => {
+                // Whoever is refused sees why: the ring is not closed.
+                let _ = self.lunge(player);
+            }
         }
+    }
+
+    /// Whether those who play can lunge: in the food chain, and alone in the game.
+    #[must_use]
+    pub fn has_lunges(&self) -> bool {
+        !self.is_replay() && self.attempt.is_none() && (self.chain.is_some() || self.seats.len() == 1)
+    }
+
+    /// A player's cell crawls faster for a moment, if it can.
+    ///
+    /// # Errors
+    /// When it cannot: what the player is told.
+    pub fn lunge(&mut self, player: usize) -> Result<(), Key> {
+        let is_possible = self.has_lunges() && !self.is_over();
+        match (&mut self.course, self.seats.get_mut(player).filter(|_| is_possible)) {
+            (Course::Live { run, .. }, Some(seat)) => seat.lunge.begin(&mut run.world, seat.cell),
+            _ => Err(Key::HudLungeEarly),
+        }
+    }
+
+    /// How a player's cell stands with its lunges.
+    #[must_use]
+    pub fn lunge_of(&self, player: usize) -> Lunge {
+        self.seats.get(player).map_or_else(Lunge::default, |seat| seat.lunge)
     }
 
     /// Changes a player's cell, if this change of a food chain is offered.
@@ -206,8 +233,21 @@ impl Round {
     pub fn heard(&self) -> impl Iterator<Item = Cue> + '_ {
         let of = |event| self.players().find_map(|cell| Cue::of(event, Some(cell)));
         let events = self.world().events().iter().filter_map(of);
+        let dt = self.world().config().dt;
+        let lunges = self.seats.iter().filter(move |seat| seat.lunge.is_new(dt)).map(|_| Cue::Lunge);
         let second = self.referee().begins_second().map(|left| if left == 0 { Cue::End } else { Cue::Second });
-        events.chain(if self.is_won() || self.is_dead() { Some(Cue::End) } else { second })
+        events.chain(lunges).chain(if self.is_won() || self.is_dead() { Some(Cue::End) } else { second })
+    }
+
+    /// Who ate the first player's cell, or digested the last one of all, when the round has ended by that.
+    #[must_use]
+    pub fn eater(&self) -> Option<OrganismId> {
+        let digester = |event: &Event| match *event {
+            Event::Consumed { engulfer, prey, .. } if self.players().any(|cell| cell == prey) => Some(engulfer),
+            _ => None,
+        };
+        let of_chain = || self.chain.as_ref().and_then(|chain| chain.eater(0));
+        if self.is_dead() { of_chain().or_else(|| self.world().events().iter().find_map(digester)) } else { None }
     }
 
     fn is_won(&self) -> bool {
@@ -252,6 +292,7 @@ impl Round {
         RoundResult {
             score: self.referee().score(),
             scores: self.scores(),
+            counts: self.seats.iter().map(|seat| prey_class::counts(seat.referee.kinds())).collect(),
             time: self.referee().game().time,
             undigested: self.undigested(),
             kinds: self.referee().kinds().to_vec(),
@@ -344,38 +385,5 @@ impl Clone for Round {
         self.seats.clone_from(seats);
         self.attempt.clone_from(attempt);
         self.chain.clone_from(chain);
-    }
-}
-
-impl Clone for Course {
-    fn clone(&self) -> Self {
-        match self {
-            Self::Live { run, recorder, record } => {
-                Self::Live { run: run.clone(), recorder: recorder.clone(), record: record.clone() }
-            }
-            Self::Replay { run, is_over, mismatch } => {
-                Self::Replay { run: run.clone(), is_over: *is_over, mismatch: *mismatch }
-            }
-        }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        match (self, source) {
-            (Self::Live { run, recorder, record }, Self::Live { run: other, recorder: notes, record: written }) => {
-                run.clone_from(other);
-                recorder.clone_from(notes);
-                record.clone_from(written);
-            }
-            (course, _) => *course = source.clone(),
-        }
-    }
-}
-
-impl Course {
-    fn run(&self) -> &Built {
-        match self {
-            Self::Live { run, .. } => run,
-            Self::Replay { run, .. } => run.run(),
-        }
     }
 }

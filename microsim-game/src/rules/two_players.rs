@@ -3,7 +3,7 @@
 use super::bot::{Bot, Policy};
 use super::seating::{OBSTACLES, seat};
 use super::verdict::verdict;
-use crate::words::{Key, text_with};
+use crate::words::{self, Key, text_with};
 
 /// Name of its scenario.
 pub const NAME: &str = "two-under-glass";
@@ -54,16 +54,22 @@ impl TwoPlayers {
         (self == Self::Bot).then(|| Bot::new(Policy::Greedy, seed))
     }
 
-    /// What the status says of the points so far.
+    /// What the status says of the points so far, of each player or, the first without one, of all; and by how much somebody leads.
     #[must_use]
-    pub fn summary(self, scores: &[u32]) -> String {
-        match (self, scores) {
-            (Self::Together, _) => text_with(Key::TwoSum, &[("points", scores.iter().sum::<u32>().into())]),
-            (Self::Bot, [own, program, ..]) => {
-                text_with(Key::TwoBotSum, &[("own", (*own).into()), ("program", (*program).into())])
-            }
-            _ => (1..).zip(scores).map(|(k, points)| format!("{k}: {points}")).collect::<Vec<_>>().join("   "),
+    pub fn summary(self, scores: &[u32]) -> Vec<(Option<usize>, String)> {
+        if self == Self::Together {
+            return vec![(None, text_with(Key::TwoSum, &[("points", scores.iter().sum::<u32>().into())]))];
         }
+        let of = |(k, &points): (usize, &u32)| {
+            let best_other = (0..).zip(scores).filter(|(other, _)| *other != k).map(|(_, points)| *points).max();
+            let lead = best_other.and_then(|other| points.checked_sub(other)).filter(|lead| *lead > 0);
+            let name = match self {
+                Self::Bot => words::text([Key::TwoYou, Key::TwoProgram][k.min(1)]).to_owned(),
+                _ => (k + 1).to_string(),
+            };
+            (Some(k), format!("{name}: {points}{}", lead.map_or_else(String::new, |lead| format!(" (+{lead})"))))
+        };
+        scores.iter().enumerate().map(of).collect()
     }
 
     /// What the end says. Players without a name have a number.
@@ -79,6 +85,38 @@ impl TwoPlayers {
             _ => Key::TwoWins,
         };
         verdict([win, Key::TwoDraw, Key::TwoDrawBest], scores, names)
+    }
+}
+
+/// What the scores of two who play together are kept as.
+#[must_use]
+pub fn together() -> String {
+    format!("{NAME}, together")
+}
+
+/// Who has more points than all others.
+#[must_use]
+pub fn winner(scores: &[u32]) -> Option<usize> {
+    let best = scores.iter().max()?;
+    let mut best_ones = (0..scores.len()).filter(|&k| scores[k] == *best);
+    best_ones.next().filter(|_| best_ones.next().is_none())
+}
+
+/// The rounds that were won one after the other in one way, by the first and by the second player.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RoundsWon(Option<TwoPlayers>, [u32; 2]);
+
+impl RoundsWon {
+    /// Counts a round, from the beginning if it was played in another way than the last one, and tells how it stands.
+    pub fn count(&mut self, way: TwoPlayers, winner: Option<usize>) -> String {
+        if self.0 != Some(way) {
+            *self = Self(Some(way), [0; 2]);
+        }
+        if let Some(count) = winner.and_then(|winner| self.1.get_mut(winner)) {
+            *count += 1;
+        }
+        let [first, second] = self.1;
+        text_with(Key::TwoWon, &[("first", first.into()), ("second", second.into())])
     }
 }
 
@@ -176,6 +214,28 @@ mod tests {
         let first = play(&mut round, 200);
         round.clone_from(&kept);
         assert_eq!(play(&mut round, 200), first);
+    }
+
+    #[test]
+    fn the_status_has_a_part_for_each_player_and_says_who_leads() {
+        let told = |way: TwoPlayers, scores: &[u32]| {
+            let parts = way.summary(scores).into_iter();
+            parts.map(|(player, text)| format!("{player:?} {text}")).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(told(TwoPlayers::Versus, &[30, 50]), "Some(0) 1: 30, Some(1) 2: 50 (+20)");
+        assert_eq!(told(TwoPlayers::Versus, &[50, 50, 10]), "Some(0) 1: 50, Some(1) 2: 50, Some(2) 3: 10");
+        assert_eq!(told(TwoPlayers::Bot, &[70, 50]), "Some(0) You: 70 (+20), Some(1) Program: 50");
+        assert_eq!(told(TwoPlayers::Together, &[70, 50]), "None Together 120");
+    }
+
+    #[test]
+    fn rounds_are_counted_while_two_go_on_in_the_same_way() {
+        let mut won = RoundsWon::default();
+        let mut after = |way, scores: &[u32]| won.count(way, winner(scores));
+        assert_eq!(after(TwoPlayers::Versus, &[10, 20]), "Rounds won: 0 to 1");
+        assert_eq!(after(TwoPlayers::Versus, &[10, 10]), "Rounds won: 0 to 1", "a draw");
+        assert_eq!(after(TwoPlayers::Versus, &[30, 10]), "Rounds won: 1 to 1");
+        assert_eq!(after(TwoPlayers::Bot, &[30, 10]), "Rounds won: 1 to 0");
     }
 
     #[test]

@@ -1,19 +1,27 @@
 //! What a round of the food chain shows, alone or in a match.
 
 use super::steer::first_advice;
-use crate::hud::food_chain;
+use crate::draw::palette::ALERT;
 use crate::hud::marks::Style;
+use crate::hud::{food_chain, own};
 use crate::rules::food_chain::change::line_of;
-use crate::rules::food_chain::{FoodChain, equals, threats_and_victims};
+use crate::rules::food_chain::{Fate, FoodChain, others};
 use crate::rules::lesson::FirstDeed;
 use crate::rules::round::Round;
-use crate::rules::threat::engulfers;
+use crate::rules::threat::{Other, engulfers};
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
+use microsim_core::glam::Vec2;
 use microsim_core::{OrganismId, OrganismView, View};
 
 /// Time until the cell starves that fills the bar, s.
 const FULL_RESERVE: f32 = 60.0;
+
+/// Distance within which somebody who can bite is near, units.
+const HUNTED: f32 = 35.0;
+
+/// Area from which an amoeba is a giant, square units: rivals begin with half of it.
+const GIANT_AREA: f32 = 400.0;
 
 /// When the first rival and the first giant come, as the scene says, and how long before the player is warned of them, s.
 const RIVALS: f64 = 65.0;
@@ -60,6 +68,28 @@ pub(super) fn seen(round: &Round, player: Option<usize>) -> Option<OrganismId> {
     own.filter(is_there).or_else(|| round.players().find(is_there))
 }
 
+/// Whether somebody is near who can bite a cell.
+pub(super) fn is_hunted(round: &Round, view: View<'_>, cell: OrganismId) -> bool {
+    round.chain().is_some() && others(view, cell)[0].iter().any(|threat| threat.distance < HUNTED)
+}
+
+/// Marks who ate the own cell, or says at the place of its end that it starved.
+pub(super) fn draw_end(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'_>, place: Vec2) {
+    let starved = round.chain().is_some_and(|chain| chain.fate(0) == Some(Fate::Starved));
+    if let Some(eater) = round.eater().and_then(|eater| view.organism(eater)) {
+        let is_giant = eater.spawn_area() > GIANT_AREA;
+        let name = match round.chain() {
+            None => Key::SlideEndTaken,
+            Some(_) if is_giant => Key::HudEatenByGiant,
+            Some(_) => Key::HudEatenByRival,
+        };
+        own::draw_rim(pen, style, eater, ALERT, own::EATER);
+        food_chain::draw_fate(pen, style, eater.centroid(), name);
+    } else if starved && round.is_over() {
+        food_chain::draw_fate(pen, style, place, Key::HudStarved);
+    }
+}
+
 /// Marks how the bodies of all players have changed, and for one cell who can bite it and whom it can bite. Who plays it is told when
 /// it is bitten. Of other rounds it marks who can take the cell in.
 pub(super) fn draw(
@@ -70,11 +100,16 @@ pub(super) fn draw(
     (cell, is_played): (OrganismId, bool),
 ) {
     let Some(chain) = round.chain() else {
-        food_chain::draw_others(pen, style, view, &[engulfers(view, cell), Vec::new()]);
+        // Who has it inside is still seen.
+        let own = view.organism(cell);
+        let holder = own.and_then(|own| Some(Other::seen(view.organism(own.held_by()?)?, own)));
+        let threats = holder.map_or_else(|| engulfers(view, cell), |holder| vec![holder]);
+        food_chain::draw_others(pen, style, view, &[threats, Vec::new()]);
         return;
     };
-    food_chain::draw_others(pen, style, view, &threats_and_victims(view, cell));
-    food_chain::draw_equals(pen, style, &equals(view, cell));
+    let [threats, victims, equals] = others(view, cell);
+    food_chain::draw_others(pen, style, view, &[threats, victims]);
+    food_chain::draw_equals(pen, style, &equals);
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
     if is_played && chain.is_bitten(cell) {

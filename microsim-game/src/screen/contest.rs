@@ -99,8 +99,9 @@ impl Contest {
     fn act(&mut self, input: &mut Input, context: &AppContext) {
         let offer = self.offer();
         let chosen = self.taking.take(input, &context.pen, offer).map(Deed::Choose);
-        let divides = self.divides() && input.presses(Action::Divide);
-        if let Some(deed) = chosen.or(divides.then_some(Deed::Divide)) {
+        let possible = [(Action::Divide, Deed::Divide), (Action::Lunge, Deed::Lunge)].into_iter().zip(self.deeds());
+        let mut pressed = possible.filter(|((action, _), is_possible)| *is_possible && input.presses(*action));
+        if let Some(deed) = chosen.or_else(|| Some(pressed.next()?.0.1)) {
             self.game.act(deed);
         }
     }
@@ -125,8 +126,7 @@ impl Contest {
         let mut heard = Vec::new();
         viewer.run(pace, 1.0, game, |game| {
             let round = game.session().round();
-            let cell = game.own().and_then(|own| round.players().nth(own));
-            let intent = cell.map_or(Intent::REST, |cell| hands.intent(0, round, cell, goal)).digesting(digests);
+            let intent = game.own().map_or(Intent::REST, |own| hands.intent(0, round, own, goal)).digesting(digests);
             let was_equal = game.session().desync().is_none();
             let began = platform::now();
             let is_taken = room.advance(game, intent, clock());
@@ -272,12 +272,12 @@ impl Screen for Contest {
         context.paint(view, camera);
         let (time, advice) = (context.motion(), self.advice(context));
         let style = marks::Style { camera, time, is_classic: context.settings.classic_arrows, key: None };
-        let is_calm = context.settings.reduced_motion;
         let pen = &mut context.pen;
         for (k, id) in round.players().enumerate() {
             if let Some(cell) = view.organism(id) {
                 let width = if Some(k) == self.game.own() { 1.0 } else { own::OTHERS };
                 own::draw_own(pen, &style, cell, Some(k + 1), width);
+                own::draw_lunge(pen, &style, cell, round.lunge_of(k));
             }
         }
         places::draw_food(pen, &style, round, view);
@@ -299,8 +299,8 @@ impl Screen for Contest {
             (self.game.plan().way.summary(round), [referee.time_left(), referee.game().time])
         };
         let life = looked_at.and_then(|cell| chain_scene::status(round, cell));
-        let (score, time) = life.unwrap_or_else(of_points);
-        hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
+        let (score, time) = life.map_or_else(of_points, |(told, time)| (vec![(None, told)], time));
+        hud::draw_status(pen, &Status { score: &score, time, is_calm: style.time.is_none(), note: &note });
         match (self.offer(), advice) {
             (Some(offered), _) => offer::draw(pen, offered),
             (None, Some(advice)) => hud::draw_advice(pen, &advice, platform::covered_height()),
@@ -312,8 +312,8 @@ impl Screen for Contest {
         true
     }
 
-    fn divides(&self) -> bool {
-        living(&self.game).is_some() && self.game.session().round().chain().is_some()
+    fn deeds(&self) -> [bool; 2] {
+        [living(&self.game).is_some() && self.game.session().round().chain().is_some(); 2]
     }
 
     fn name(&self) -> String {

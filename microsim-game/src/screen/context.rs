@@ -13,6 +13,7 @@ use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
 use crate::rules::food_chain::feats::Feats;
 use crate::rules::lesson::Lessons;
+use crate::rules::two_players::RoundsWon;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
 use crate::sound::Cue;
@@ -126,6 +127,8 @@ pub struct AppContext {
     pub files: Vec<SceneSource>,
     /// The last round that was played to its end, as a replay.
     pub last_game: Option<Vec<u8>>,
+    /// The rounds of two players that were won since the program began.
+    pub(super) rounds_won: RoundsWon,
     /// Which of its players this one was, as far as that is known.
     pub(super) last_seat: usize,
     /// What was explained so far.
@@ -182,6 +185,7 @@ impl AppContext {
             files,
             last_game,
             last_seat: 0,
+            rounds_won: RoundsWon::default(),
             lessons: Lessons::default(),
             chosen: None,
             party: Party::default(),

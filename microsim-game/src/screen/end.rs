@@ -42,12 +42,9 @@ impl End {
         let missed = end_advice::missed(&result);
         let RoundResult { score: points, time, kinds, record, is_mismatch, .. } = result;
         let game = context.game_of(played).label();
-        let count = |is_rigid: bool| {
-            let of_kind = kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
-            of_kind.map(|(_, entry)| entry.count).sum()
-        };
+        let [small, rigid] = prey_class::counts(&kinds);
         let (name, day) = signature(context);
-        let score = Score { game: game.clone(), time, points, small: count(false), rigid: count(true), name, day };
+        let score = Score { game: game.clone(), time, points, small, rigid, name, day };
         let (mut place, mut best, is_own) = (None, Vec::new(), record.is_some());
         if let Some(record) = record {
             let (found, kept) = context.scores.add(score, &context.store);
@@ -111,7 +108,7 @@ impl Screen for End {
             pen.write(Vec2::new(0.5 * screen.x, first + small * k as f32), TextSize::Small, Align::Centre, HALO, text);
         }
         self.draw_kinds(pen, 0.28 * screen.y + line);
-        draw_table(pen, [0.71 * screen.x, 0.28 * screen.y], first - small, &self.best, self.place);
+        draw_table(pen, [0.71 * screen.x, 0.28 * screen.y], first - small, &self.best, (Key::ScoresPoints, self.place));
         self.menu.menu.draw(pen, &MenuLayout::middle(pen, MENU_TOP));
     }
 

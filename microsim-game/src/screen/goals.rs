@@ -1,31 +1,55 @@
-//! The goals of the food chain: what each asks for in one life, and which are reached.
+//! The goals of the food chain, each to be reached in one life, and those of the other ways to play; and which are reached.
 
 use super::context::AppContext;
 use super::page::draw_heading;
 use super::{Next, Screen};
-use crate::draw::palette::{HALO, READY, fade};
+use crate::draw::palette::{HALO, INK, READY, fade};
 use crate::input::{Input, Move};
-use crate::rules::food_chain::feats::Feats;
+use crate::rules::two_players::together;
+use crate::slides::SLIDES;
+use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 
 /// Share of the picture's height above the first line.
-const TOP: f32 = 0.3;
-/// Distance of lines, and of the numbers in one, lines of text.
+const TOP: f32 = 0.26;
+/// Distance of lines at most, and of the numbers in one, lines of text.
 const LINE: f32 = 1.5;
-const COLUMN: f32 = 2.2;
+const COLUMN: f32 = 2.15;
+
+/// What goals ask for: what players call it, the most of it so far, and how much each goal asks for.
+type Measure = (Key, u32, &'static [u32]);
 
 #[derive(Debug)]
 pub(super) struct Goals {
-    best: Feats,
+    measures: Vec<Measure>,
 }
 
 impl Goals {
     pub(super) fn new(context: &AppContext) -> Self {
-        Self { best: context.chain_records.best }
+        Self { measures: context.chain_records.best.measures().chain(others(context)).collect() }
     }
+
+    /// How many are reached, and how many there are.
+    fn count(&self) -> [usize; 2] {
+        let reached = |(_, most, wanted): &Measure| wanted.iter().filter(|least| most >= least).count();
+        [self.measures.iter().map(reached).sum(), self.measures.iter().map(|(.., wanted)| wanted.len()).sum()]
+    }
+}
+
+/// The goals of the game, of slides and of two who play together, from what is kept of them.
+fn others(context: &AppContext) -> [Measure; 4] {
+    let most = |game: &str, of: fn(&Score) -> u32| context.scores.of_game(game).map(of).max().unwrap_or_default();
+    let game = context.game.label();
+    let stars = SLIDES.iter().filter_map(|slide| Some(context.best_times.stars(slide.name, &slide.told()?))).sum();
+    [
+        (Key::GoalPoints, most(&game, |score| score.points), &[500, 1500, 3000, 5000]),
+        (Key::GoalCiliates, most(&game, |score| score.rigid), &[1, 4, 8, 12]),
+        (Key::GoalStars, stars, &[3, 13, 26, 39]),
+        (Key::GoalTogether, most(&together(), |score| score.points), &[500, 2000, 4000]),
+    ]
 }
 
 impl Screen for Goals {
@@ -35,64 +59,102 @@ impl Screen for Goals {
     }
 
     fn draw(&mut self, context: &mut AppContext) {
-        draw_goals(&mut context.pen, self.best);
+        draw_goals(&mut context.pen, self);
     }
 
     fn name(&self) -> String {
-        format!("goals-{}", self.best.goals()[0])
+        format!("goals-{}", self.count()[0])
     }
 }
 
-/// Writes a line for each measure, with the numbers that its goals ask for: those that are reached have a ring, and the most of all
-/// lives is at the end.
-fn draw_goals(pen: &mut Pen, best: Feats) {
-    let [done, all] = best.goals();
+/// Where the text of a line begins, and the numbers, and what is behind them, in a line of this height: shares of the picture's width.
+struct Columns {
+    middle: f32,
+    step: f32,
+}
+
+impl Columns {
+    fn of(pen: &Pen, size: TextSize) -> Self {
+        Self { middle: 0.4 * pen.screen().x, step: COLUMN * pen.line(size) }
+    }
+
+    fn of_number(&self, k: usize) -> f32 {
+        self.middle + self.step * (0.5 + k as f32)
+    }
+}
+
+/// The size of the text, and the distance of lines, with which all of them have room.
+fn size_of(pen: &Pen, lines: usize) -> (TextSize, f32) {
+    let room = (1.0 - TOP) * pen.screen().y - 1.6 * pen.line(TextSize::Small);
+    let step = (room / lines.max(1) as f32).min(LINE * pen.line(TextSize::Body));
+    (if step < 1.2 * pen.line(TextSize::Body) { TextSize::Small } else { TextSize::Body }, step)
+}
+
+/// Writes a line for each measure, with the numbers that its goals ask for: those that are reached have a light ground, and the most so
+/// far is at the end.
+fn draw_goals(pen: &mut Pen, goals: &Goals) {
+    let [done, all] = goals.count();
     let counts = [("done", (done as u32).into()), ("all", (all as u32).into())];
     draw_heading(pen, &words::text_with(Key::ChainGoals, &counts));
-    let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
-    let middle = 0.47 * screen.x;
-    for (k, (what, most, wanted)) in best.measures().enumerate() {
-        let y = TOP * screen.y + LINE * line * k as f32;
-        pen.write(Vec2::new(middle - 0.5 * line, y), TextSize::Body, Align::Right, HALO, words::text(what));
+    let (size, step) = size_of(pen, goals.measures.len());
+    let (screen, line, columns) = (pen.screen(), pen.line(size), Columns::of(pen, size));
+    for (k, (what, most, wanted)) in goals.measures.iter().enumerate() {
+        let y = TOP * screen.y + step * (k as f32 + 0.5);
+        pen.write(Vec2::new(columns.middle - 0.3 * line, y), size, Align::Right, HALO, words::text(*what));
         for (k, least) in wanted.iter().enumerate() {
-            let at = Vec2::new(middle + (1.0 + COLUMN * k as f32) * line, y);
-            let is_reached = most >= *least;
-            let colour = if is_reached { READY } else { fade(HALO, 0.7) };
+            let (at, text) = (Vec2::new(columns.of_number(k), y), least.to_string());
+            let is_reached = most >= least;
             if is_reached {
-                pen.canvas().arc(at, 0.85 * line, 0.1 * line, 1.0, READY);
+                let half = Vec2::new(0.5 * pen.width(size, &text) + 0.2 * line, 0.46 * step.min(line));
+                let radius = pen.rounding();
+                pen.canvas().rounded(at - half, at + half, radius, READY);
             }
-            pen.write(at, TextSize::Body, Align::Centre, colour, &least.to_string());
+            pen.write(at, size, Align::Centre, if is_reached { INK } else { fade(HALO, 0.8) }, &text);
         }
-        let end = Vec2::new(middle + (1.0 + COLUMN * 5.0) * line, y);
-        pen.write(
-            end,
-            TextSize::Small,
-            Align::Left,
-            fade(HALO, 0.85),
-            &words::text_with(Key::GoalsMost, &[("most", most.into())]),
-        );
+        let (end, told) =
+            (columns.of_number(5) - 0.4 * columns.step, words::text_with(Key::GoalsMost, &[("most", (*most).into())]));
+        pen.write(Vec2::new(end, y), TextSize::Small, Align::Left, fade(HALO, 0.85), &told);
     }
-    let at = Vec2::new(0.5 * screen.x, screen.y - line);
+    let at = Vec2::new(0.5 * screen.x, screen.y - 0.7 * pen.line(TextSize::Small));
     pen.write(at, TextSize::Small, Align::Centre, HALO, words::text(Key::ScoresLeave));
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rules::food_chain::feats::Feats;
+
+    fn goals(best: Feats, points: u32) -> Goals {
+        let others: [Measure; 4] = [Key::GoalPoints, Key::GoalCiliates, Key::GoalStars, Key::GoalTogether]
+            .map(|key| (key, points, [500].as_slice()));
+        Goals { measures: best.measures().chain(others).collect() }
+    }
 
     #[test]
-    fn goals_that_are_reached_have_rings_and_all_is_in_a_small_picture_with_the_largest_text() {
+    fn goals_that_are_reached_have_a_ground_and_all_is_in_a_small_picture_with_the_largest_text() {
         for language in &words::LANGUAGES {
             words::choose(language, || None);
-            let rings = |best| {
-                let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
-                draw_goals(&mut pen, best);
+            let screen = Vec2::new(640.0, 360.0);
+            let grounds = |best, points| {
+                let (mut pen, measure) = Pen::measured(screen, 1.5);
+                let goals = goals(best, points);
+                draw_goals(&mut pen, &goals);
                 assert!(pen.canvas().corners().all(|(at, ..)| at.x >= 0.0 && at.x <= 640.0 && at.y <= 360.0));
+                let (size, step) = size_of(&pen, goals.measures.len());
+                assert!(step >= 0.85 * pen.line(size), "{step}");
+                let columns = Columns::of(&pen, size);
+                for (what, ..) in &goals.measures {
+                    assert!(measure(size, words::text(*what)) + 0.3 * pen.line(size) <= columns.middle, "{what:?}");
+                }
+                assert!(measure(size, "5000") < columns.step);
+                let most = words::text_with(Key::GoalsMost, &[("most", 5854.into())]);
+                assert!(columns.of_number(5) - 0.4 * columns.step + measure(TextSize::Small, &most) <= screen.x);
                 pen.canvas().count(READY)
             };
             let some = Feats { time: 130, small: 20, ..Feats::default() };
             let more = Feats { time: 190, ..some };
-            assert!(rings(Feats::default()) == 0 && rings(some) > 0 && rings(more) > rings(some));
+            assert!(grounds(Feats::default(), 0) == 0 && grounds(some, 0) > 0 && grounds(more, 0) > grounds(some, 0));
+            assert!(grounds(more, 500) > grounds(more, 499));
         }
     }
 }

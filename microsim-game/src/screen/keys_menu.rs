@@ -8,6 +8,9 @@ use crate::input::{Action, Input, Move};
 use crate::ui::menu::{Menu, MenuChoice, MenuItem};
 use crate::words::{self, Key};
 
+/// The item for the usual keys: behind those of actions and of the letters that steer.
+const USUAL: usize = Action::ALL.len() + 1;
+
 /// The menu of keys.
 #[derive(Debug)]
 pub(super) struct KeysMenu {
@@ -40,7 +43,8 @@ fn items(keys: &Keys, waiting: Option<Action>) -> Vec<MenuItem> {
     let label =
         |action| if waiting == Some(action) { words::text(Key::KeysPress).to_owned() } else { keys.label(action) };
     let actions = Action::ALL.into_iter().map(|action| MenuItem::with(action.label(), label(action)));
-    actions.chain([MenuItem::new(Key::KeysUsual), MenuItem::new(Key::Back)]).collect()
+    let letters = MenuItem::switch(Key::KeysLetters, keys.letters_steer());
+    actions.chain([letters, MenuItem::new(Key::KeysUsual), MenuItem::new(Key::Back)]).collect()
 }
 
 impl Screen for KeysMenu {
@@ -52,11 +56,12 @@ impl Screen for KeysMenu {
         } else if let Some(MenuChoice::Pick(item) | MenuChoice::Less(item)) = self.page.update(input, &context.pen) {
             match Action::ALL.get(item) {
                 Some(&action) => self.waiting = Some(action),
-                None if item > Action::ALL.len() => return Next::Back,
-                None => {
-                    context.settings.keys = Keys::default();
-                    context.save_settings();
-                }
+                None if item > USUAL => return Next::Back,
+                None if item == USUAL => context.settings.keys = Keys::default(),
+                None => context.settings.keys.change_letters(),
+            }
+            if self.waiting.is_none() {
+                context.save_settings();
             }
         }
         self.page.menu.items = items(&context.settings.keys, self.waiting);

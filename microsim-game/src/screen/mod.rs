@@ -76,9 +76,9 @@ pub trait Screen: fmt::Debug {
         false
     }
 
-    /// Whether the player can ask its cell to divide.
-    fn divides(&self) -> bool {
-        false
+    /// Whether the player can ask its cell to divide, and to lunge.
+    fn deeds(&self) -> [bool; 2] {
+        [false; 2]
     }
 
     /// Whether leaving it would lose something: a round that is being played, or the place in a room.

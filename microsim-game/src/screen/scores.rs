@@ -3,88 +3,111 @@
 use super::context::AppContext;
 use super::join::LONGEST;
 use super::page::draw_heading;
-use super::{Next, Screen};
+use super::{Next, Overlay, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};
-use crate::slides::SLIDES;
+use crate::rules::food_chain::NAME;
+use crate::rules::two_players::together;
 use crate::store::scores::Score;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 
-/// Most stars for a slide.
-const MOST_STARS: u32 = 3;
+/// The best of one way to play: the heading, what points are called, and the scores.
+type Page = (String, Key, Vec<Score>);
 
-/// The list of high scores of the game.
+/// The lists of high scores: of the game, and of the other ways to play that have any. The goals follow.
 #[derive(Debug)]
 pub(super) struct ScoreList {
-    /// Name of the game, and its time, s.
-    game: [String; 2],
-    scores: Vec<Score>,
-    /// What was reached beside the game.
-    others: String,
+    pages: Vec<Page>,
+    at: usize,
 }
 
 impl ScoreList {
     pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
-        let named = [context.game.source.to_string(), words::number(time, 0)];
-        let slides = SLIDES.iter().filter_map(|slide| Some(context.best_times.stars(slide.name, &slide.told()?)));
-        let (longest, stars) = (context.chain_records.best.time, slides.sum::<u32>());
-        let args =
-            [("time", longest.into()), ("stars", stars.into()), ("all", (MOST_STARS * SLIDES.len() as u32).into())];
-        let others = words::text_with(Key::ScoresOthers, &args);
-        Self { game: named, scores: context.scores.of(&game, time).cloned().collect(), others }
+        let scores = |game: &str| context.scores.of_game(game).cloned().collect::<Vec<Score>>();
+        let [named, seconds] = [context.game.source.to_string(), words::number(time, 0)];
+        let told = [("game", (&named).into()), ("time", (&seconds).into())];
+        let of_game = context.scores.of(&game, time).cloned().collect();
+        let first = (words::text_with(Key::ScoresHeading, &told), Key::ScoresPoints, of_game);
+        let others = [
+            (NAME.to_owned(), Key::TitleFoodChain, Key::ScoresSeconds),
+            (together(), Key::TitleTwoPlayers, Key::ScoresPoints),
+        ];
+        let others = others.map(|(game, title, points)| (words::text(title).to_owned(), points, scores(&game)));
+        let pages = [first].into_iter().chain(others.into_iter().filter(|(.., scores)| !scores.is_empty()));
+        Self { pages: pages.collect(), at: 0 }
+    }
+}
+
+impl ScoreList {
+    /// Shows the next list, and after the last one the goals.
+    fn turn(&mut self, input: &Input) -> Next {
+        if input.step == Some(Move::Back) || self.at == self.pages.len() {
+            return Next::Back;
+        }
+        if input.step == Some(Move::Confirm) || input.is_clicked {
+            self.at += 1;
+            if self.at == self.pages.len() {
+                return Next::Open(Overlay::Goals);
+            }
+        }
+        Next::Stay
     }
 }
 
 impl Screen for ScoreList {
     fn update(&mut self, input: &Input, _: &mut AppContext) -> Next {
-        let leaves = matches!(input.step, Some(Move::Back | Move::Confirm)) || input.is_clicked;
-        if leaves { Next::Back } else { Next::Stay }
+        self.turn(input)
     }
 
     fn draw(&mut self, context: &mut AppContext) {
-        let pen = &mut context.pen;
-        let args = [("game", (&self.game[0]).into()), ("time", (&self.game[1]).into())];
-        draw_heading(pen, &words::text_with(Key::ScoresHeading, &args));
-        let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
-        if self.scores.is_empty() {
-            pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, words::text(Key::ScoresNone));
+        if let Some(page) = self.pages.get(self.at) {
+            draw_page(&mut context.pen, page);
         }
-        let (middle, top) = (0.5 * screen.x, 0.27 * screen.y);
-        let shown = draw_table(pen, [middle, top], 0.85 * screen.y, &self.scores, None);
-        for (k, score) in self.scores.iter().take(shown).enumerate() {
-            let y = top + line * (k + 1) as f32;
-            let name: String = score.name.chars().take(LONGEST).collect();
-            pen.write(Vec2::new(middle - 5.8 * line, y), TextSize::Small, Align::Right, HALO, &name);
-            pen.write(Vec2::new(middle + 5.3 * line, y), TextSize::Small, Align::Left, HALO, &score.date());
-        }
-        let at = Vec2::new(0.5 * screen.x, screen.y - 2.2 * line);
-        pen.write(at, TextSize::Body, Align::Centre, HALO, &self.others);
-        let at = Vec2::new(0.5 * screen.x, screen.y - line);
-        pen.write(at, TextSize::Small, Align::Centre, HALO, words::text(Key::ScoresLeave));
     }
 
     fn name(&self) -> String {
-        let best = self.scores.first().map_or(0, |score| score.points);
-        format!("scores-{}-{best}", self.scores.len())
+        let (count, best) = self
+            .pages
+            .get(self.at)
+            .map_or((0, 0), |(.., scores)| (scores.len(), scores.first().map_or(0, |score| score.points)));
+        format!("scores-{count}-{best}")
     }
 }
 
-/// Draws scores as a table from the middle of its upper edge down to `bottom`, one of them marked; returns how many there is room for.
+fn draw_page(pen: &mut Pen, (heading, points, scores): &Page) {
+    draw_heading(pen, heading);
+    let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
+    if scores.is_empty() {
+        pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, words::text(Key::ScoresNone));
+    }
+    let (middle, top) = (0.5 * screen.x, 0.27 * screen.y);
+    let shown = draw_table(pen, [middle, top], screen.y - 1.4 * line, scores, (*points, None));
+    for (k, score) in scores.iter().take(shown).enumerate() {
+        let y = top + line * (k + 1) as f32;
+        let name: String = score.name.chars().take(LONGEST).collect();
+        pen.write(Vec2::new(middle - 5.8 * line, y), TextSize::Small, Align::Right, HALO, &name);
+        pen.write(Vec2::new(middle + 5.3 * line, y), TextSize::Small, Align::Left, HALO, &score.date());
+    }
+    let at = Vec2::new(0.5 * screen.x, screen.y - 0.7 * line);
+    pen.write(at, TextSize::Small, Align::Centre, HALO, words::text(Key::ScoresNext));
+}
+
+/// Draws scores, or seconds, as a table from the middle of its upper edge down to `bottom`, one of them marked; returns how many there is room for.
 pub(super) fn draw_table(
     pen: &mut Pen,
     [middle, top]: [f32; 2],
     bottom: f32,
     scores: &[Score],
-    marked: Option<usize>,
+    (points, marked): (Key, Option<usize>),
 ) -> usize {
     let line = pen.line(TextSize::Body);
     let columns = [-4.5, -1.0, 2.0, 4.5].map(|lines| middle + lines * line);
     let room = ((bottom - top) / line) as usize;
-    let heads = ["", words::text(Key::ScoresPoints), words::text(Key::ScoresSmall), words::text(Key::ScoresCells)];
+    let heads = ["", words::text(points), words::text(Key::ScoresSmall), words::text(Key::ScoresCells)];
     if !scores.is_empty() {
         for (x, head) in columns.into_iter().zip(heads) {
             pen.write(Vec2::new(x, top), TextSize::Small, Align::Right, HALO, head);
@@ -101,4 +124,22 @@ pub(super) fn draw_table(
         }
     }
     room
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_come_one_after_the_other_and_then_the_goals_which_lead_back() {
+        let page = || (String::new(), Key::ScoresPoints, Vec::new());
+        let mut list = ScoreList { pages: vec![page(), page()], at: 0 };
+        let enter = Input { step: Some(Move::Confirm), ..Input::default() };
+        assert!(matches!(list.turn(&enter), Next::Stay) && list.at == 1);
+        assert!(matches!(list.turn(&Input::default()), Next::Stay) && list.at == 1);
+        assert!(matches!(list.turn(&enter), Next::Open(Overlay::Goals)));
+        assert!(matches!(list.turn(&Input::default()), Next::Back));
+        let mut list = ScoreList { pages: vec![page()], at: 0 };
+        assert!(matches!(list.turn(&Input { step: Some(Move::Back), ..Input::default() }), Next::Back));
+    }
 }

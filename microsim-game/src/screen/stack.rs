@@ -66,10 +66,10 @@ impl Stack {
         self.screens.last().is_some_and(|screen| screen.is_scene())
     }
 
-    /// Whether the player can ask its cell to divide.
+    /// Whether the player can ask its cell to divide, and to lunge.
     #[must_use]
-    pub fn divides(&self) -> bool {
-        self.screens.last().is_some_and(|screen| screen.divides())
+    pub fn deeds(&self) -> [bool; 2] {
+        self.screens.last().map_or([false; 2], |screen| screen.deeds())
     }
 
     /// The menu of the topmost screen, unless that waits for a key.

@@ -61,17 +61,19 @@ impl Hands {
         self.is_crawling.then(|| camera.to_room(input.cursor))
     }
 
-    /// What a cell does in a step.
-    pub(super) fn intent(&mut self, hand: usize, round: &Round, cell: OrganismId, goal: Option<Vec2>) -> Intent {
-        let cell = round.world().view().organism(cell);
-        let brake = self.brakes.get_mut(hand);
-        cell.zip(brake).map_or(Intent::REST, |(cell, brake)| brake.intent(cell, goal))
+    /// What the cell of a player does in a step.
+    pub(super) fn intent(&mut self, hand: usize, round: &Round, player: usize, goal: Option<Vec2>) -> Intent {
+        let cell = round.players().nth(player).and_then(|cell| round.world().view().organism(cell));
+        let Some((cell, brake)) = cell.zip(self.brakes.get_mut(hand)) else { return Intent::REST };
+        // Who lets go goes on as far as a lunge goes.
+        let ahead = || round.lunge_of(player).is_on().then(|| cell.centroid() + STEERED * brake.heading());
+        brake.intent(cell, goal.or_else(ahead))
     }
 
     /// What all who play do in a step. Only the first one may have to hold a key to digest.
     pub(super) fn intents(&mut self, round: &Round, goals: [Option<Vec2>; 2], digests: bool) -> Vec<Intent> {
-        let steered = round.players().zip(goals).enumerate();
-        steered.map(|(k, (cell, goal))| self.intent(k, round, cell, goal).digesting(k > 0 || digests)).collect()
+        let steered = (0..round.players().count()).zip(goals);
+        steered.map(|(k, goal)| self.intent(k, round, k, goal).digesting(k > 0 || digests)).collect()
     }
 }
 

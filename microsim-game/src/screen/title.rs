@@ -68,11 +68,18 @@ impl Title {
         let goal = best.next_goal(Key::TitleGoal).filter(|_| best != Feats::default());
         let is_new = context.best_times.is_empty();
         let note = is_new.then(|| words::text(Key::TitleNew).to_owned()).or(goal);
-        let mut menu = Menu::new(items);
         // Who is new begins with the slides.
-        menu.set_focus(context.title_item.unwrap_or(usize::from(is_new)));
+        let menu = title_menu(items, context.title_item.unwrap_or(usize::from(is_new)));
         Self { backdrop: Backdrop::new(context.pen.screen()), menu, targets, note }
     }
+}
+
+/// The menu, of which "Play" is always seen.
+fn title_menu(items: Vec<MenuItem>, focus: usize) -> Menu {
+    let mut menu = Menu::new(items);
+    menu.keeps_first = true;
+    menu.set_focus(focus);
+    menu
 }
 
 /// What the menu offers now.
@@ -174,6 +181,23 @@ impl Screen for Title {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ui::pen::Pen;
+
+    #[test]
+    fn play_is_seen_with_every_size_of_text_in_every_window_whatever_was_chosen_before() {
+        let items = |count| (0..count).map(|_| MenuItem::new(Key::TitlePlay)).collect();
+        for screen in [(640.0, 360.0), (960.0, 540.0), (800.0, 600.0), (360.0, 640.0), (1280.0, 720.0)] {
+            for wish in [0.85, 1.0, 1.25, 1.5] {
+                let layout = MenuLayout::title(&Pen::measured(screen.into(), wish).0);
+                for focus in 0..ITEMS.len() {
+                    let mut menu = title_menu(items(ITEMS.len()), focus);
+                    menu.update(&Input::default(), &layout);
+                    let seen: Vec<usize> = menu.shown(&layout).map(|(item, _)| item).collect();
+                    assert!(seen.contains(&0) && seen.contains(&focus), "{screen:?}, {wish}: {seen:?} with {focus}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn a_game_is_watched_only_after_one_and_a_page_has_no_quit() {

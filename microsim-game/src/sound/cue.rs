@@ -14,6 +14,8 @@ pub enum Cue {
     Release,
     /// Prey is digested.
     Digest,
+    /// A cell lunges.
+    Lunge,
     /// One cell became two.
     Divide,
     /// Two cells became one.
@@ -26,8 +28,10 @@ pub enum Cue {
 
 impl Cue {
     /// All of them.
-    pub const ALL: [Self; 8] =
-        [Self::Engulf, Self::Ingest, Self::Release, Self::Digest, Self::Divide, Self::Fuse, Self::Second, Self::End];
+    pub const ALL: [Self; 9] = {
+        use Cue::*;
+        [Engulf, Ingest, Release, Digest, Lunge, Divide, Fuse, Second, End]
+    };
 
     /// What an event sounds like to one organism, which hears only what it does itself, or to a watcher, who hears everybody.
     #[must_use]
@@ -53,6 +57,7 @@ impl Cue {
             }
             Self::Release => vec![Tone::glide([150.0, 330.0], 0.16, 0.40)],
             Self::Digest => vec![Tone::note(523.25, 0.18, 0.35), Tone::note(783.99, 0.28, 0.35).after(0.07)],
+            Self::Lunge => vec![Tone::glide([130.0, 400.0], 0.22, 0.45)],
             Self::Divide => vec![Tone::glide([330.0, 220.0], 0.35, 0.35), Tone::glide([330.0, 495.0], 0.35, 0.35)],
             Self::Fuse => vec![Tone::glide([220.0, 330.0], 0.35, 0.35), Tone::glide([495.0, 330.0], 0.35, 0.35)],
             Self::Second => vec![Tone::note(880.0, 0.06, 0.25)],

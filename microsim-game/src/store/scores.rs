@@ -104,9 +104,14 @@ impl Scores {
         self.trim();
     }
 
+    /// The best ones of a game, however long its rounds were.
+    pub fn of_game<'a>(&'a self, game: &'a str) -> impl Iterator<Item = &'a Score> {
+        self.score.iter().filter(move |score| score.game == game)
+    }
+
     /// The best ones of a game, the best first.
     pub fn of<'a>(&'a self, game: &'a str, time: f32) -> impl Iterator<Item = &'a Score> {
-        self.score.iter().filter(move |score| score.game == game && score.time == time)
+        self.of_game(game).filter(move |score| score.time == time)
     }
 }
 

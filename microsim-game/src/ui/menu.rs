@@ -3,7 +3,7 @@
 use super::font::TextSize;
 use super::pen::{Align, Pen};
 use super::stars::{draw_stars, stars_width};
-use crate::draw::palette::{HALO, INK, fade};
+use crate::draw::palette::{HALO, INK, READY, fade};
 use crate::input::{Input, Move};
 use crate::words::{self, Key, Label};
 use microsim_core::glam::Vec2;
@@ -17,13 +17,21 @@ pub struct MenuItem {
     pub value: Option<String>,
     /// Stars that were got for it.
     pub stars: Option<u32>,
+    /// Whether it is nothing to choose, but says what the next ones are about.
+    pub is_heading: bool,
 }
 
 impl MenuItem {
     /// Something to choose.
     #[must_use]
     pub fn new(label: impl Into<Label>) -> Self {
-        Self { label: label.into(), value: None, stars: None }
+        Self { label: label.into(), value: None, stars: None, is_heading: false }
+    }
+
+    /// What the next items are about.
+    #[must_use]
+    pub fn heading(label: impl Into<Label>) -> Self {
+        Self { is_heading: true, ..Self::new(label) }
     }
 
     /// Something to set.
@@ -111,7 +119,7 @@ impl MenuLayout {
     /// At the left edge.
     #[must_use]
     pub fn side(pen: &Pen, top: f32) -> Self {
-        let high = 1.4 * pen.line(TextSize::Small);
+        let high = 1.25 * pen.line(TextSize::Small);
         let item = Vec2::new((12.5 * pen.line(TextSize::Small)).min(pen.screen().x - high), high);
         let corner = Vec2::new(0.5 * item.y, top);
         Self::of_height(corner, item, pen.screen().y - 0.3 * item.y, TextSize::Small)
@@ -137,6 +145,8 @@ pub fn title_lines(pen: &Pen) -> [f32; 3] {
 pub struct Menu {
     /// Its items.
     pub items: Vec<MenuItem>,
+    /// Whether the first item is seen however far it is scrolled.
+    pub keeps_first: bool,
     focus: usize,
     first: usize,
 }
@@ -145,7 +155,7 @@ impl Menu {
     /// A menu of these items.
     #[must_use]
     pub fn new(items: Vec<MenuItem>) -> Self {
-        Self { items, focus: 0, first: 0 }
+        Self { items, keeps_first: false, focus: 0, first: 0 }
     }
 
     /// The item that the keyboard acts on.
@@ -185,18 +195,26 @@ impl Menu {
             self.set_focus(item);
         }
         let choice = self.click(input, layout).or_else(|| self.walk(input));
-        if input.wheel != 0.0 && self.contains(input.cursor, layout) {
-            self.focus =
-                self.focus.saturating_add_signed(-input.wheel as isize).min(self.items.len().saturating_sub(1));
+        if input.wheel.abs() >= 1.0 && self.contains(input.cursor, layout) {
+            let (next, is_down) = (self.next(input.wheel < 0.0), input.wheel < 0.0);
+            // Not round the ends.
+            self.focus = if (next > self.focus) == is_down { next } else { self.focus };
         }
         let last_first = self.items.len().saturating_sub(layout.visible);
-        self.first = self.first.clamp((self.focus + 1).saturating_sub(layout.visible), self.focus).min(last_first);
+        let highest = self.focus.saturating_sub(usize::from(self.keeps_first));
+        self.first = self.first.clamp((self.focus + 1).saturating_sub(layout.visible), highest).min(last_first);
         choice
     }
 
+    /// The item in a row, counted from the first that is seen.
+    fn in_row(&self, row: usize) -> usize {
+        if self.keeps_first && row == 0 { 0 } else { self.first + row }
+    }
+
     fn click(&mut self, input: &Input, layout: &MenuLayout) -> Option<MenuChoice> {
-        let item = self.first + layout.row(input.cursor)?;
-        if item >= self.items.len() || !(input.has_moved || input.is_clicked) {
+        let item = self.in_row(layout.row(input.cursor)?);
+        let is_choice = self.items.get(item).is_some_and(|item| !item.is_heading);
+        if !is_choice || !(input.has_moved || input.is_clicked) {
             return None;
         }
         self.focus = item;
@@ -207,25 +225,32 @@ impl Menu {
         input.is_clicked.then_some(pick)
     }
 
-    fn walk(&mut self, input: &Input) -> Option<MenuChoice> {
+    /// The next item that can be chosen, or the one before, round the ends.
+    fn next(&self, is_down: bool) -> usize {
         let count = self.items.len();
-        let has_value = self.items.get(self.focus)?.value.is_some();
+        let places = (1..=count).map(|k| (self.focus + if is_down { k } else { count - k }) % count);
+        places.into_iter().find(|&item| !self.items[item].is_heading).unwrap_or(self.focus)
+    }
+
+    fn walk(&mut self, input: &Input) -> Option<MenuChoice> {
+        let focus = self.items.get(self.focus)?;
+        let (has_value, is_choice) = (focus.value.is_some(), !focus.is_heading);
         match input.step? {
-            Move::Up => self.focus = (self.focus + count - 1) % count,
-            Move::Down => self.focus = (self.focus + 1) % count,
+            Move::Up => self.focus = self.next(false),
+            Move::Down => self.focus = self.next(true),
             Move::Left if has_value => return Some(MenuChoice::Less(self.focus)),
             Move::Right if has_value => return Some(MenuChoice::Pick(self.focus)),
-            Move::Confirm => return Some(MenuChoice::Pick(self.focus)),
-            Move::Left | Move::Right | Move::Back => {}
+            Move::Confirm if is_choice => return Some(MenuChoice::Pick(self.focus)),
+            _ => {}
         }
         None
     }
 
     /// The items that are seen, each with its upper left corner.
-    pub fn shown(&self, layout: &MenuLayout) -> impl Iterator<Item = (usize, Vec2)> + use<> {
+    pub fn shown<'a>(&'a self, layout: &MenuLayout) -> impl Iterator<Item = (usize, Vec2)> + use<'a> {
         let (corner, height) = (layout.corner, layout.item.y);
-        let seen = self.first..self.items.len().min(self.first + layout.visible);
-        seen.enumerate().map(move |(row, index)| (index, corner + Vec2::new(0.0, row as f32 * height)))
+        let rows = 0..layout.visible.min(self.items.len() - self.first);
+        rows.map(move |row| (self.in_row(row), corner + Vec2::new(0.0, row as f32 * height)))
     }
 
     /// Draws it.
@@ -246,6 +271,11 @@ impl Menu {
     }
 
     fn draw_item(&self, pen: &mut Pen, layout: &MenuLayout, low: Vec2, item: &MenuItem, has_focus: bool) {
+        if item.is_heading {
+            let at = low + Vec2::new(0.0, 0.5 * layout.item.y);
+            pen.label(at, layout.size, Align::Left, READY, item.label.text());
+            return;
+        }
         let high = low + layout.item - Vec2::new(0.0, 2.0);
         let (back, ink) = if has_focus { (fade(HALO, 0.94), INK) } else { (fade(INK, 0.76), HALO) };
         let radius = 0.6 * pen.rounding();
@@ -273,77 +303,4 @@ impl Menu {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LAYOUT: MenuLayout =
-        MenuLayout { corner: Vec2::new(100.0, 50.0), item: Vec2::new(200.0, 20.0), visible: 3, size: TextSize::Body };
-
-    fn menu() -> Menu {
-        let mut items = ["a", "b", "c", "d", "e"].map(MenuItem::new);
-        items[1].value = Some("1".to_owned());
-        Menu::new(items.into())
-    }
-
-    fn step(step: Move) -> Input {
-        Input { step: Some(step), ..Input::default() }
-    }
-
-    fn click(x: f32, y: f32) -> Input {
-        Input { cursor: Vec2::new(x, y), is_clicked: true, ..Input::default() }
-    }
-
-    #[test]
-    fn the_keyboard_goes_round_and_the_view_follows() {
-        let mut menu = menu();
-        menu.update(&step(Move::Up), &LAYOUT);
-        assert_eq!((menu.focus, menu.first), (4, 2));
-        assert_eq!(menu.update(&step(Move::Confirm), &LAYOUT), Some(MenuChoice::Pick(4)));
-        menu.update(&step(Move::Down), &LAYOUT);
-        assert_eq!((menu.focus, menu.first), (0, 0));
-        assert_eq!(menu.update(&step(Move::Left), &LAYOUT), None, "it has no value");
-        menu.update(&step(Move::Down), &LAYOUT);
-        assert_eq!(menu.update(&step(Move::Left), &LAYOUT), Some(MenuChoice::Less(1)));
-        assert_eq!(menu.update(&step(Move::Right), &LAYOUT), Some(MenuChoice::Pick(1)));
-    }
-
-    #[test]
-    fn what_is_read_aloud_can_be_pointed_at_and_chosen() {
-        let mut menu = menu();
-        menu.items[2] = MenuItem::rated("c", 3);
-        assert_eq!(menu.lines(), "0\na\nb: 1\nc, 3 stars\nd\ne");
-        assert_eq!(menu.update(&Input { item: Some(4), ..Input::default() }, &LAYOUT), None);
-        assert_eq!((menu.focus, menu.first), (4, 2));
-        let chosen = Input { item: Some(1), ..step(Move::Confirm) };
-        assert_eq!(menu.update(&chosen, &LAYOUT), Some(MenuChoice::Pick(1)));
-        assert_eq!(menu.update(&Input { item: Some(9), ..step(Move::Confirm) }, &LAYOUT), Some(MenuChoice::Pick(4)));
-    }
-
-    #[test]
-    fn that_there_is_more_is_marked_beside_the_menu() {
-        let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.5);
-        let layout = MenuLayout { visible: 3, ..MenuLayout::middle(&pen, 0.3) };
-        let mut menu = menu();
-        menu.update(&step(Move::Up), &layout);
-        menu.draw(&mut pen, &layout);
-        let end = layout.corner + Vec2::new(layout.item.x, 3.0 * layout.item.y);
-        let corners: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
-        assert!(corners.iter().all(|at| (layout.corner.y - 0.01..=end.y).contains(&at.y)), "{corners:?}");
-        assert!(corners.iter().any(|at| at.x > end.x), "{corners:?}");
-    }
-
-    #[test]
-    fn the_mouse_picks_what_is_under_it() {
-        let mut menu = menu();
-        let mut clicked = |x, y| menu.update(&click(x, y), &LAYOUT);
-        assert_eq!(clicked(150.0, 95.0), Some(MenuChoice::Pick(2)));
-        assert_eq!(clicked(150.0, 75.0), Some(MenuChoice::Pick(1)));
-        assert_eq!(clicked(210.0, 75.0), Some(MenuChoice::Less(1)));
-        assert_eq!(clicked(290.0, 75.0), Some(MenuChoice::Pick(1)));
-        for (x, y) in [(99.0, 75.0), (301.0, 75.0), (150.0, 49.0), (150.0, 111.0)] {
-            assert_eq!(clicked(x, y), None);
-        }
-        assert_eq!(clicked(100.0 + BACK * 200.0, 75.0), Some(MenuChoice::Less(1)), "where the arrow is");
-        assert!(Menu::default().update(&click(150.0, 75.0), &LAYOUT).is_none());
-    }
-}
+mod tests;

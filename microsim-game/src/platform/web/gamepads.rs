@@ -5,9 +5,11 @@ use crate::input::gamepad::{Gamepad, PadButton};
 use microsim_core::glam::Vec2;
 
 /// Buttons by their numbers in the browser's usual layout.
-const BUTTONS: [(i32, PadButton); 7] = [
+const BUTTONS: [(i32, PadButton); 9] = [
     (0, PadButton::South),
     (1, PadButton::East),
+    (2, PadButton::West),
+    (3, PadButton::West),
     (9, PadButton::Start),
     (12, PadButton::Up),
     (13, PadButton::Down),

@@ -2,7 +2,7 @@
 
 use crate::rules::food_chain::bites::cytoplasm;
 use crate::rules::food_chain::change::{Change, line_of};
-use crate::rules::food_chain::threats_and_victims;
+use crate::rules::food_chain::others;
 use crate::rules::hint::{Readiness, readiness};
 use crate::rules::path::PathMap;
 use crate::rules::round::Round;
@@ -171,7 +171,7 @@ impl ChainBot {
     }
 
     fn survive(&self, round: &Round, cell: OrganismView<'_>) -> Option<Vec2> {
-        let [threats, _] = threats_and_victims(round.world().view(), round.player());
+        let [threats, ..] = others(round.world().view(), round.player());
         let at = cell.centroid();
         if threats.first().is_some_and(|threat| is_near(threat, at)) {
             self.refuge(round, at, &threats)
@@ -214,7 +214,7 @@ impl ChainBot {
             })
             .collect();
         if is_greedy {
-            let [_, victims] = threats_and_victims(view, round.player());
+            let [_, victims, _] = others(view, round.player());
             found.extend(victims.iter().map(|victim| (victim.at, 15.0)));
         }
         let is_safe = |place: Vec2| !threats.iter().any(|threat| is_near(threat, place));
@@ -228,7 +228,7 @@ impl ChainBot {
 fn is_to_divide(round: &Round) -> bool {
     let view = round.world().view();
     let (Some(chain), Some(cell)) = (round.chain(), view.organism(round.player())) else { return false };
-    let [threats, _] = threats_and_victims(view, cell.id());
+    let [threats, ..] = others(view, cell.id());
     let is_alone = view.organisms().filter(|other| line_of(*other) == line_of(cell)).count() == 1;
     is_alone && chain.size(cell) >= DIVISION && !threats.iter().any(|threat| is_near(threat, cell.centroid()))
 }

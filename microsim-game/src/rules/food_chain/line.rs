@@ -2,7 +2,7 @@
 
 use super::change::Change;
 use super::feats::Feats;
-use microsim_core::Rng;
+use microsim_core::{OrganismId, Rng};
 
 /// Streams of random numbers from here on are for offers, one for each line.
 const STREAM: u64 = 5 << 60;
@@ -15,6 +15,8 @@ pub(super) struct Line {
     rng: Rng,
     /// How its last cell that is gone came to its end.
     pub fate: Option<Fate>,
+    /// Who bit one of its cells last.
+    pub biter: Option<OrganismId>,
     /// What it has done, as far as the referee does not count it.
     pub feats: Feats,
     /// When none of its cells was left, s.
@@ -37,6 +39,7 @@ impl Line {
             offer: None,
             rng: Rng::new(seed, STREAM + player as u64),
             fate: None,
+            biter: None,
             feats: Feats::default(),
             end: None,
         }

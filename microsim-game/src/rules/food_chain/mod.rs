@@ -80,6 +80,8 @@ pub enum Deed {
     Choose(usize),
     /// Divides the cell.
     Divide,
+    /// Crawls faster for a moment.
+    Lunge,
 }
 
 impl FoodChain {
@@ -112,6 +114,10 @@ impl FoodChain {
     }
 
     fn bite(&mut self, world: &mut World, by: OrganismId, of: OrganismId) {
+        let bitten = world.view().organism(of).and_then(line_of);
+        if let Some(line) = bitten.and_then(|line| self.lines.get_mut(line)) {
+            line.biter = Some(by);
+        }
         self.take(world, of, Fate::Eaten);
         // Refused while it divides, or has no room.
         if let Some(line) = world.view().organism(by).and_then(line_of) {
@@ -223,11 +229,8 @@ impl FoodChain {
     #[must_use]
     pub fn life(&self, world: &World, kinds: &[(Kind, KindScore)]) -> Option<Life> {
         let (time, line) = (self.lives(world.time() as f32).next()?, self.lines.first()?);
-        let count = |is_rigid: bool| {
-            let of_sort = kinds.iter().filter(|(kind, _)| prey_class::is_rigid(*kind) == is_rigid);
-            of_sort.map(|(_, entry)| entry.count).sum()
-        };
-        let feats = Feats { time: time as u32, small: count(false), cells: count(true), ..line.feats };
+        let [small, cells] = prey_class::counts(kinds);
+        let feats = Feats { time: time as u32, small, cells, ..line.feats };
         Some(Life { time, fate: line.fate, feats, seed: world.config().seed })
     }
 
@@ -235,6 +238,13 @@ impl FoodChain {
     #[must_use]
     pub fn fate(&self, player: usize) -> Option<Fate> {
         self.lines.get(player)?.fate
+    }
+
+    /// Who ate the last cell of a line that is gone.
+    #[must_use]
+    pub fn eater(&self, player: usize) -> Option<OrganismId> {
+        let line = self.lines.get(player)?;
+        line.biter.filter(|_| line.fate == Some(Fate::Eaten))
     }
 
     /// How long each line has lived by this time, s.
@@ -255,29 +265,22 @@ impl FoodChain {
     }
 }
 
-/// The amoebae of no line or another one that can bite a cell, and those that it can bite, the nearest first.
+/// The amoebae of no line or another one, the nearest first: those that can bite a cell, those that it can bite, and those that do neither.
 #[must_use]
-pub fn threats_and_victims(view: View<'_>, player: OrganismId) -> [Vec<Other>; 2] {
-    let Some(cell) = view.organism(player) else { return [Vec::new(), Vec::new()] };
-    let amoebae =
-        || view.organisms().filter(|other| other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell));
-    let mut found = [
-        amoebae().filter(|other| can_bite(*other, cell)).map(|other| Other::seen(other, cell)).collect::<Vec<_>>(),
-        amoebae().filter(|other| can_bite(cell, *other)).map(|other| Other::seen(other, cell)).collect(),
-    ];
+pub fn others(view: View<'_>, player: OrganismId) -> [Vec<Other>; 3] {
+    let mut found = [const { Vec::new() }; 3];
+    let Some(cell) = view.organism(player) else { return found };
+    let is_other = |other: &OrganismView<'_>| other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell);
+    for other in view.organisms().filter(is_other) {
+        let sort = match (can_bite(other, cell), can_bite(cell, other)) {
+            (true, _) => 0,
+            (false, true) => 1,
+            (false, false) => 2,
+        };
+        found[sort].push(Other::seen(other, cell));
+    }
     found.iter_mut().for_each(|others| others.sort_by(|a, b| a.distance.total_cmp(&b.distance)));
     found
-}
-
-/// The amoebae of no line or another one that can neither bite a cell nor be bitten by it.
-#[must_use]
-pub fn equals(view: View<'_>, player: OrganismId) -> Vec<Other> {
-    let Some(cell) = view.organism(player) else { return Vec::new() };
-    let is_equal = |other: &OrganismView<'_>| {
-        let is_other = other.kind() == Kind::AmoeboidCell && line_of(*other) != line_of(cell);
-        is_other && !can_bite(*other, cell) && !can_bite(cell, *other)
-    };
-    view.organisms().filter(is_equal).map(|other| Other::seen(other, cell)).collect()
 }
 
 #[cfg(test)]

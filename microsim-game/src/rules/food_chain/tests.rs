@@ -112,9 +112,11 @@ fn cells_of_different_players_bite_each_other_and_the_eater_grows() {
         growth += cytoplasm(cell(&round, 1)).saturating_sub(before);
         assert_eq!(round.world().census().leaks, 0);
     }
-    assert_eq!(round.chain().unwrap().fate(0), Some(Fate::Eaten));
+    let chain = round.chain().unwrap();
+    assert_eq!((chain.fate(0), chain.eater(0), chain.eater(1)), (Some(Fate::Eaten), round.players().nth(1), None));
+    assert_eq!(round.eater(), None, "somebody lives on");
     assert!(growth > 0 && !round.is_over(), "the eater lives on, and has grown");
-    let [threats, victims] = threats_and_victims(four().world().view(), four().players().next().unwrap());
+    let [threats, victims, _] = others(four().world().view(), four().players().next().unwrap());
     assert!(threats.is_empty() && victims.is_empty(), "cells of no line, before the first step");
 }
 
@@ -124,8 +126,8 @@ fn an_amoeba_is_a_threat_a_victim_or_an_equal() {
         let mut round = room(&[(5.0, [15.0, 30.0]), (radius, [60.0, 30.0])]);
         round.step_all(&[Intent::REST; 2]);
         let (view, own) = (round.world().view(), round.players().next().unwrap());
-        let [threats, victims] = threats_and_victims(view, own);
-        assert_eq!([threats.len(), victims.len(), equals(view, own).len()], expected, "radius {radius}");
+        let others = others(view, own);
+        assert_eq!(others.map(|others| others.len()), expected, "radius {radius}");
     }
 }
 

@@ -35,8 +35,9 @@ use microsim_core::{OrganismId, View};
 const SCENT: f32 = 0.4;
 /// Entries of the guide that whoever crawls has seen.
 const OWN_BODY: [&str; 3] = ["amoeboid-cell", "membrane", "pseudopod"];
-/// Time for which the scene is still seen when a round is over, s.
+/// Time for which the scene is still seen when a round is over, and when the own cell is gone, s.
 const LAST_LOOK: f32 = 0.8;
+const LAST_LOOK_AT_EATER: f32 = 1.6;
 /// A ghost is given up when a step takes longer than this with it, ms.
 const GHOST_STEP: f32 = 10.0;
 
@@ -73,8 +74,9 @@ pub(super) struct Play {
     over_for: f32,
     /// The player's best life in this water.
     ghost: Option<Ghost>,
-    /// What is written on the keys that divide the cell and change the optics.
+    /// What is written on the keys that divide the cell, let it lunge, and change the optics.
     divide_key: String,
+    lunge_key: String,
     optics_key: String,
     /// The keys that make a replay slower and faster, and stop it.
     tempo_keys: [String; 3],
@@ -89,7 +91,8 @@ impl Play {
             self.pulses.call(self.viewer.camera.to_room(input.cursor));
         }
         let goals = self.hands.goals(input, &self.viewer.camera, &self.round, self.two);
-        self.has_begun |= goals.iter().any(Option::is_some) || input.presses(Action::Divide);
+        self.has_begun |=
+            goals.iter().any(Option::is_some) || input.presses(Action::Divide) || input.presses(Action::Lunge);
         let digests = context.settings.digests(input);
         let speed = if self.has_begun { context.settings.pace() * self.tempo.factor() } else { 0.0 };
         let Self { round, viewer, gains, heard, hands, bot, ghost, .. } = self;
@@ -168,7 +171,8 @@ impl Play {
             self.pulses.lose(self.last_place);
         }
         self.over_for += context.pace.elapsed;
-        !self.done.is_shown() && (context.pace.is_exact || self.over_for > LAST_LOOK)
+        let look = if is_gone { LAST_LOOK_AT_EATER } else { LAST_LOOK };
+        !self.done.is_shown() && (context.pace.is_exact || self.over_for > look)
     }
 
     /// The camera follows the cell; of two cells it shows the whole slide.
@@ -190,12 +194,16 @@ impl Play {
             if let Some(cell) = view.organism(id) {
                 let width = if k == self.own { self.pulses.rim() } else { own::OTHERS };
                 own::draw_own(pen, style, cell, (!is_alone).then_some(k + 1), width);
+                own::draw_lunge(pen, style, cell, self.round.lunge_of(k));
                 if self.round.chain().is_some_and(|chain| chain.is_bitten(id)) {
                     own::draw_rim(pen, style, cell, ALERT, own::BITTEN);
                 }
             }
         }
         self.pulses.draw(pen, style);
+        if !self.round.is_replay() {
+            chain_scene::draw_end(pen, style, &self.round, view, self.last_place);
+        }
         places::draw_food(pen, style, &self.round, view);
         places::draw_places(pen, style, &self.round, view);
         chain_scene::draw(pen, style, &self.round, view, (seen, !self.round.is_replay()));
@@ -219,8 +227,8 @@ fn digestion_key(settings: &Settings, has_buttons: bool) -> Option<String> {
 }
 
 impl Screen for Play {
-    fn divides(&self) -> bool {
-        self.round.chain().is_some() && !self.round.is_replay()
+    fn deeds(&self) -> [bool; 2] {
+        [self.round.chain().is_some() && !self.round.is_replay(), self.round.has_lunges()]
     }
 
     fn update(&mut self, input: &Input, context: &mut AppContext) -> Next {
@@ -238,6 +246,12 @@ impl Screen for Play {
         }
         if input.presses(Action::Divide) {
             self.round.divide(0);
+        }
+        if input.presses(Action::Lunge)
+            && self.round.has_lunges()
+            && let Err(told) = self.round.lunge(0)
+        {
+            context.tell(words::text(told));
         }
         if self.round.is_replay() {
             self.tempo = self.tempo.changed(input.presses(Action::Faster), input.presses(Action::Slower));
@@ -284,8 +298,9 @@ impl Screen for Play {
         } else {
             self.advice(&hints, context.lessons.first_deed(), (key.as_deref(), covered > 0.0))
         };
-        let lesson = context.lessons.pass(&hints, context.time, advice.is_none());
-        let advice = advice.or_else(|| lesson.map(|lesson| words::text(lesson).to_owned()));
+        let is_hunted = self.round.has_lunges().then(|| chain_scene::is_hunted(&self.round, view, self.seen()));
+        let lesson = context.lessons.pass(&hints, is_hunted, context.time, advice.is_none());
+        let advice = advice.or_else(|| lesson.map(|lesson| self.lesson(lesson, covered > 0.0)));
         let pen = &mut context.pen;
         self.draw_marks(pen, &style, view, &hints);
         self.draw_status(pen, context.settings.reduced_motion);

@@ -110,6 +110,7 @@ impl Play {
             last_life: None,
             over_for: 0.0,
             ghost,
+            lunge_key: context.settings.keys.label(Action::Lunge),
             divide_key: context.settings.keys.label(Action::Divide),
             optics_key: context.settings.keys.label(Action::Optics),
             tempo_keys: [Action::Slower, Action::Faster, Action::Pause]

@@ -5,7 +5,6 @@ use super::super::steer::{first_advice, held_to_crawl, optics_advice};
 use super::Play;
 use crate::clock::Tempo;
 use crate::hud::{self, Status};
-use crate::rules::attempt::Attempt;
 use crate::rules::hint::Hints;
 use crate::rules::lesson::FirstDeed;
 use crate::rules::two_players::TwoPlayers;
@@ -32,15 +31,17 @@ impl Play {
         }
         let referee = self.round.referee();
         let of_game = || {
+            let of_all = |told| vec![(None, told)];
             let points = || match self.two {
                 Some(way) => way.summary(&self.round.scores()),
-                None => words::text_with(Key::HudScore, &[("points", referee.score().into())]),
+                None => of_all(words::text_with(Key::HudScore, &[("points", referee.score().into())])),
             };
-            let score = self.round.attempt().map_or_else(points, Attempt::summary);
+            let score = self.round.attempt().map_or_else(points, |attempt| of_all(attempt.summary()));
             (score, [referee.time_left(), referee.game().time])
         };
         let life = chain_scene::status(&self.round, self.seen()).or_else(|| self.last_life.clone());
-        let (score, time) = life.filter(|_| self.two.is_none()).unwrap_or_else(of_game);
+        let life = life.filter(|_| self.two.is_none()).map(|(told, time)| (vec![(None, told)], time));
+        let (score, time) = life.unwrap_or_else(of_game);
         hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
     }
 
@@ -73,6 +74,13 @@ impl Play {
             let of_optics = || (!has_buttons).then(|| optics_advice(time, &self.optics_key)).flatten();
             first.map(|deed| first_advice(deed, has_buttons)).or_else(of_optics)
         }
+    }
+
+    /// The explanation of a mark, or of the lunge.
+    pub(super) fn lesson(&self, lesson: Key, has_buttons: bool) -> String {
+        let of_key = || words::text_with(Key::HintLungeKey, &[("key", (&self.lunge_key).into())]);
+        let what = if has_buttons { words::text(Key::ActionLunge).to_owned() } else { of_key() };
+        words::text_with(lesson, &[("what", (&what).into())])
     }
 
     /// Whether somebody plays the second cell.

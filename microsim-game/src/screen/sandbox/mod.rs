@@ -62,6 +62,8 @@ impl Sandbox {
         let (heard, tempo) = (Vec::new(), Tempo::default());
         let mut sandbox = Self { stage, viewer, tools, undo, panel, plots, heard, tempo, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
+        // Behind the heading.
+        sandbox.panel.set_focus(1);
         sandbox
     }
 

@@ -9,6 +9,16 @@ use crate::ui::menu::{MenuChoice, MenuItem, MenuLayout};
 use crate::ui::pen::Pen;
 use crate::words::{self, Key};
 
+/// What the items from this one on are about, headings not counted.
+const GROUPS: [(usize, Key); 6] = [
+    (0, Key::PanelMove),
+    (3, Key::PanelBodies),
+    (5, Key::PanelLook),
+    (8, Key::PanelBuild),
+    (PAUSE, Key::PanelTime),
+    (ANATOMY, Key::PanelScene),
+];
+
 const UNDO: usize = Tool::ALL.len();
 const PAUSE: usize = UNDO + 1;
 const STEP: usize = PAUSE + 1;
@@ -42,7 +52,20 @@ pub(super) fn items(sandbox: &Sandbox) -> Vec<MenuItem> {
         MenuItem::new(Key::PanelScenarios),
         MenuItem::new(Key::PanelMenu),
     ];
-    Tool::ALL.map(tool).into_iter().chain(others).collect()
+    grouped(Tool::ALL.map(tool).into_iter().chain(others)).collect()
+}
+
+/// The items with their headings.
+fn grouped(items: impl Iterator<Item = MenuItem>) -> impl Iterator<Item = MenuItem> {
+    items.enumerate().flat_map(|(k, item)| {
+        let heading = GROUPS.into_iter().find(|(first, _)| *first == k).map(|(_, about)| MenuItem::heading(about));
+        heading.into_iter().chain([item])
+    })
+}
+
+/// The number of an item among those that are no headings.
+fn without_headings(items: &[MenuItem], item: usize) -> usize {
+    items.iter().take(item).filter(|item| !item.is_heading).count()
 }
 
 /// Does what was chosen.
@@ -51,6 +74,7 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut Ap
         MenuChoice::Pick(item) => (item, false),
         MenuChoice::Less(item) => (item, true),
     };
+    let item = without_headings(&sandbox.panel.items, item);
     if let Some(&(tool, _)) = Tool::ALL.get(item) {
         sandbox.tools.choose(tool, is_back);
         return Next::Stay;
@@ -70,4 +94,26 @@ pub(super) fn choose(sandbox: &mut Sandbox, choice: MenuChoice, context: &mut Ap
         _ => return Next::Open(Overlay::Pause(Paused::Simulation)),
     }
     Next::Stay
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::words::Label;
+
+    #[test]
+    fn items_are_under_headings_and_do_what_they_did_without() {
+        let others = (UNDO..=SCENARIOS + 1).map(|_| MenuItem::new(Key::PanelMenu));
+        let items: Vec<MenuItem> =
+            grouped(Tool::ALL.map(|(_, label)| MenuItem::new(label)).into_iter().chain(others)).collect();
+        assert_eq!(items.len(), SCENARIOS + 2 + GROUPS.len());
+        let after = |heading: Key| items.iter().position(|item| item.label == Label::from(heading)).unwrap() + 1;
+        for (heading, first) in
+            [(Key::PanelMove, Tool::Steer), (Key::PanelLook, Tool::Follow), (Key::PanelBuild, Tool::Join)]
+        {
+            assert_eq!(Tool::ALL[without_headings(&items, after(heading))].0, first);
+        }
+        assert_eq!(without_headings(&items, after(Key::PanelTime)), PAUSE);
+        assert_eq!(without_headings(&items, items.len() - 1), SCENARIOS + 1);
+    }
 }

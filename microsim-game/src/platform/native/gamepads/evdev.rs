@@ -136,6 +136,7 @@ fn button(code: KeyCode) -> Option<PadButton> {
     Some(match code {
         KeyCode::BTN_SOUTH => PadButton::South,
         KeyCode::BTN_EAST => PadButton::East,
+        KeyCode::BTN_WEST | KeyCode::BTN_NORTH => PadButton::West,
         KeyCode::BTN_START => PadButton::Start,
         KeyCode::BTN_DPAD_UP => PadButton::Up,
         KeyCode::BTN_DPAD_DOWN => PadButton::Down,

@@ -5,9 +5,11 @@ use gilrs::{Axis, Button, Gilrs};
 use microsim_core::glam::Vec2;
 
 /// Buttons by the system's names.
-const BUTTONS: [(Button, PadButton); 7] = [
+const BUTTONS: [(Button, PadButton); 9] = [
     (Button::South, PadButton::South),
     (Button::East, PadButton::East),
+    (Button::West, PadButton::West),
+    (Button::North, PadButton::West),
     (Button::Start, PadButton::Start),
     (Button::DPadUp, PadButton::Up),
     (Button::DPadDown, PadButton::Down),
