@@ -287,6 +287,7 @@ async function phones() {
         await checkPicture(`phone ${width}x${height}, round`, await screenshot(page, `phone-${width}-round`));
         check(`phone ${width}x${height}: has buttons`, await page.getByRole("button", { name: "Zoom in" }).isVisible());
         check(`phone ${width}x${height}: digestion needs none`, !(await page.getByRole("button", { name: "Digest" }).isVisible()));
+        check(`phone ${width}x${height}: a round has a button to lunge`, await page.getByRole("button", { name: "Lunge" }).isVisible());
         check(`phone ${width}x${height}: a round has no button to divide`, !(await page.getByRole("button", { name: "Divide" }).isVisible()));
         await page.touchscreen.tap(Math.round(0.8 * width), Math.round(0.3 * height));
         await page.getByRole("button", { name: "Menu", exact: true }).tap();
