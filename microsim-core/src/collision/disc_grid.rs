@@ -3,7 +3,7 @@
 use super::aabb::{Aabb, LaneBoxes};
 use super::uniform_grid::UniformGrid;
 use crate::instruction_set::each;
-use crate::particle::{CollisionGroups, LANES, Particles};
+use crate::particle::{BlockRange, CollisionGroups, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
 
@@ -16,6 +16,15 @@ pub(super) struct Disc {
     pub swept_radius: f32,
     /// Which particle it is.
     pub index: u32,
+}
+
+/// The discs in a slot of a block, one in each lane. Where nothing is that collides with anything, the radius is no number, so
+/// that it is near nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct DiscRow {
+    x: [f32; LANES],
+    y: [f32; LANES],
+    swept_radius: [f32; LANES],
 }
 
 /// The columns that discs are made from, looked up once and not for each of them.
@@ -32,7 +41,16 @@ pub(super) struct DiscColumns<'a> {
 impl<'a> DiscColumns<'a> {
     pub(super) fn of(particles: &'a Particles) -> Self {
         let Particles { origin_x, origin_y, x, y, radius, groups, .. } = particles;
-        Self { origin_x, origin_y, x, y, radius, groups }
+        Self { origin_x, origin_y, x, y, radius, groups }.part(0..particles.len())
+    }
+
+    /// Some of them, with lengths that the compiler sees to be equal.
+    #[inline(always)]
+    fn part(&self, range: Range<usize>) -> Self {
+        let Self { origin_x, origin_y, x, y, radius, groups } = *self;
+        let [origin_x, origin_y, x, y, radius] =
+            [origin_x, origin_y, x, y, radius].map(|column| &column[range.clone()]);
+        Self { origin_x, origin_y, x, y, radius, groups: &groups[range] }
     }
 
     /// Particle `i`, if it collides with anything.
@@ -45,19 +63,40 @@ impl<'a> DiscColumns<'a> {
         (self.groups[i].memberships != 0).then(disc)
     }
 
-    /// Adds the boxes of eight neighbouring particles, of those that collide with anything.
+    /// Makes the discs of a block, and the boxes around those of each lane that collide with anything.
     #[inline(always)]
-    pub(super) fn add_to_boxes(&self, first: usize, displacement: f32, boxes: &mut LaneBoxes) {
-        let lanes = first..first + LANES;
-        let sum = |a: &[f32], b: &[f32]| {
-            let (a, b) = (&a[lanes.clone()], &b[lanes.clone()]);
-            each::<LANES>(|l| a[l] + b[l])
-        };
-        let (radius, groups) = (&self.radius[lanes.clone()], &self.groups[lanes.clone()]);
-        let swept = each(|l| radius[l] + displacement);
-        let mut is_there = [false; LANES];
-        is_there.iter_mut().zip(groups).for_each(|(is_there, groups)| *is_there = groups.memberships != 0);
-        boxes.add(sum(self.origin_x, self.x), sum(self.origin_y, self.y), swept, is_there);
+    pub(super) fn make_discs(&self, block: &BlockRange, displacement: f32, discs: &mut [DiscRow]) -> LaneBoxes {
+        let (mut boxes, own) = (LaneBoxes::EMPTY, self.part(block.base..block.end()));
+        for (discs, first) in discs.iter_mut().zip((0..).step_by(LANES)) {
+            let lanes = first..first + LANES;
+            let (origin_x, origin_y) = (&own.origin_x[lanes.clone()], &own.origin_y[lanes.clone()]);
+            let (x, y) = (&own.x[lanes.clone()], &own.y[lanes.clone()]);
+            let (radius, groups) = (&own.radius[lanes.clone()], &own.groups[lanes]);
+            // Both first, and then a choice: one or the other would be a branch in each lane.
+            let swept = each::<LANES>(|l| radius[l] + displacement);
+            let mut memberships = [0; LANES];
+            memberships.iter_mut().zip(groups).for_each(|(memberships, groups)| *memberships = groups.memberships);
+            *discs = DiscRow {
+                x: each(|l| origin_x[l] + x[l]),
+                y: each(|l| origin_y[l] + y[l]),
+                swept_radius: each(|l| if memberships[l] != 0 { swept[l] } else { f32::NAN }),
+            };
+            boxes.add(discs.x, discs.y, discs.swept_radius);
+        }
+        boxes
+    }
+}
+
+impl DiscRow {
+    /// One disc alone.
+    pub(super) fn of(disc: Disc) -> Self {
+        Self { x: [disc.at.x; LANES], y: [disc.at.y; LANES], swept_radius: [disc.swept_radius; LANES] }
+    }
+
+    /// The disc of a lane, of this particle.
+    #[inline(always)]
+    pub(super) fn disc(&self, lane: usize, index: u32) -> Disc {
+        Disc { at: Vec2::new(self.x[lane], self.y[lane]), swept_radius: self.swept_radius[lane], index }
     }
 }
 

@@ -153,7 +153,7 @@ impl RingStrip {
         let is_near = |disc: &Disc| disc.aabb().overlaps(aabb) && ring_of[disc.index as usize] != place;
         discs.clear();
         for body in near.bodies.in_box(low, high) {
-            discs.extend(near.bodies.discs_of(body, near.particles).filter(is_near));
+            discs.extend(near.bodies.discs_of(body).filter(is_near));
         }
         for grid in near.disc_grids {
             // All at once: where they lie does not have to be waited for then.
