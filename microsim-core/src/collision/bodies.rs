@@ -4,14 +4,14 @@
 //! Bodies differ in size by a factor of ten and more, so there are two grids of them: small bodies in a fine one, large ones
 //! in a coarse one, and large ones also look through the fine one.
 //!
-//! The discs of a block are kept as the store keeps its particles, so that they are made eight at a time.
+//! The discs of a body lie side by side, so that four at a time are looked at.
 
 mod across;
-mod disc_list;
 mod pair_filter;
 
 use super::aabb::Aabb;
-use super::disc_grid::{Disc, DiscColumns, DiscGrid, DiscRow};
+use super::disc::{Disc, DiscGroup, WIDTH, lanes};
+use super::disc_grid::{DiscColumns, DiscGrid};
 use super::images::Images;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
@@ -20,7 +20,6 @@ use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
-use disc_list::DiscList;
 use glam::Vec2;
 pub(super) use pair_filter::PairFilter;
 use std::ops::Range;
@@ -45,9 +44,9 @@ pub(super) struct BodyProxy {
     is_moving: bool,
     /// Whether constraints link its discs.
     is_linked: bool,
-    /// Its particle in slot 0, the row that the disc of that is in, and the number of its slots.
+    /// Its particle in slot 0, the group that the disc of that is in, and the number of its slots.
     first: usize,
-    first_row: usize,
+    first_group: usize,
     slots: usize,
 }
 
@@ -60,20 +59,20 @@ struct SizeClass {
     extent: f32,
 }
 
-/// Some of the blocks, their margins, and the discs of their slots.
+/// Some of the blocks, their margins, and their discs.
 struct Portion<'a> {
     blocks: &'a [BlockRange],
     first_block: usize,
-    first_row: usize,
+    first_group: usize,
     margins: &'a mut [[f32; LANES]],
-    discs: &'a mut [DiscRow],
+    discs: &'a mut [DiscGroup],
 }
 
 /// All bodies.
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
-    /// A row for each slot of all blocks, in the order of the store, then one for each single disc.
-    discs: Vec<DiscRow>,
+    /// Block by block, in each of them lane by lane, then single ones.
+    discs: Vec<DiscGroup>,
     found: Vec<BodyProxy>,
     small: SizeClass,
     large: SizeClass,
@@ -99,10 +98,10 @@ impl Bodies {
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
         let (aabb, block, lane, slack, is_moving) = (disc.aabb(), NO_BLOCK, 0, 0.0, true);
-        let (is_linked, first, first_row, slots) = (false, disc.index as usize, self.discs.len(), 1);
-        let body = BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, first_row, slots };
+        let (is_linked, first, first_group, slots) = (false, disc.index as usize, self.discs.len(), 1);
+        let body = BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, first_group, slots };
         self.found.push(body);
-        self.discs.push(DiscRow::of(disc));
+        self.discs.push(DiscGroup::of(disc));
     }
 
     /// Sorts the bodies for the search.
@@ -120,14 +119,13 @@ impl Bodies {
 
     /// Its discs that collide with anything.
     pub(super) fn discs_of(&self, body: &BodyProxy) -> impl Iterator<Item = Disc> {
-        self.slots_of(body).filter(|disc| !disc.swept_radius.is_nan())
+        let groups = self.groups_of(body);
+        let discs = (0..body.slots).map(|slot| groups[slot / WIDTH].disc(slot % WIDTH, body.particle(slot)));
+        discs.filter(|disc| !disc.swept_radius.is_nan())
     }
 
-    #[inline(always)]
-    fn slots_of(&self, body: &BodyProxy) -> impl Iterator<Item = Disc> {
-        let rows = self.discs[body.first_row..body.first_row + body.slots].iter();
-        let lane = body.lane % LANES;
-        rows.zip((body.first as u32..).step_by(LANES)).map(move |(row, index)| row.disc(lane, index))
+    fn groups_of(&self, body: &BodyProxy) -> &[DiscGroup] {
+        &self.discs[body.first_group..body.first_group + body.slots.div_ceil(WIDTH)]
     }
 
     /// Calls `visit` once for each disc of a body and each disc of a grid that may touch.
@@ -167,7 +165,7 @@ impl Bodies {
     /// Adds the contacts of discs that may touch within the speculative margins: of small bodies to the lists, strip by strip of
     /// rows, of large ones to the others.
     pub(super) fn pairs(&self, filter: PairFilter<'_>, strips: &mut Vec<Vec<Contact>>, others: &mut Vec<Contact>) {
-        let between = |a: &BodyProxy, b: &BodyProxy, near: &mut DiscList, found: &mut Vec<Contact>| {
+        let between = |a: &BodyProxy, b: &BodyProxy, near: &mut Vec<(usize, u32)>, found: &mut Vec<Contact>| {
             if a.aabb.shrunk(a.slack + b.slack).overlaps(b.aabb)
                 && let Some(mobility) = filter.mobility(a, b)
             {
@@ -175,14 +173,14 @@ impl Bodies {
             }
         };
         let within = |class: &SizeClass, rows: Range<usize>, found: &mut Vec<Contact>| {
-            let mut near = DiscList::default();
+            let mut near = Vec::new();
             class.grid.pairs(rows, |a, b| between(&class.bodies[a], &class.bodies[b], &mut near, found));
         };
         let rows = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP);
         strips.resize_with(rows.len(), Vec::new);
         parallel::for_each(rows.zip(strips).collect(), |(rows, found)| within(&self.small, rows, found));
         within(&self.large, 0..self.large.grid.rows(), others);
-        let mut near = DiscList::default();
+        let mut near = Vec::new();
         for body in &self.large.bodies {
             for other in self.small.overlapping(body.aabb) {
                 between(body, other, &mut near, others);
@@ -200,7 +198,7 @@ impl Bodies {
         images: Option<&Images>,
         found: &mut Vec<Contact>,
     ) {
-        let mut near = DiscList::default();
+        let mut near = Vec::new();
         for body in self.iter().filter(|body| body.block != NO_BLOCK) {
             if margins.remaining(body.block, body.lane) >= next {
                 continue;
@@ -228,37 +226,48 @@ impl Bodies {
         [a, b]: [&BodyProxy; 2],
         mobility: [Mobility; 2],
         filter: PairFilter<'_>,
-        near: &mut DiscList,
+        near: &mut Vec<(usize, u32)>,
         found: &mut Vec<Contact>,
     ) {
         self.pairs_between([a, b], a.slack + b.slack, near, |a, b| found.extend(filter.contact(a, b, mobility)));
     }
 
     /// Calls `visit` for each two discs of two bodies that may touch if both together move by `slack` less than the largest
-    /// displacements.
+    /// displacements. `near` is room for the groups of the second one that are near the first one, and which discs of each are.
     fn pairs_between(
         &self,
         [a, b]: [&BodyProxy; 2],
         slack: f32,
-        near: &mut DiscList,
+        near: &mut Vec<(usize, u32)>,
         mut visit: impl FnMut(&Disc, &Disc),
     ) {
+        let (of_a, of_b) = (self.groups_of(a), self.groups_of(b));
+        let (box_a, box_b) = (a.aabb.shrunk(slack), b.aabb.shrunk(slack));
         near.clear();
-        for disc in self.discs_in(b, a.aabb.shrunk(slack)) {
-            near.push(disc);
-        }
-        if near.is_empty() {
-            return;
-        }
-        for disc in self.discs_in(a, b.aabb.shrunk(slack)) {
-            near.for_each_within(&disc, slack, |other| visit(&disc, other));
+        let in_box_a = of_b.iter().map(|group| group.in_box(box_a)).enumerate();
+        near.extend(in_box_a.filter(|(_, near)| *near != 0));
+        for (group, k) in of_a.iter().zip(0..).filter(|_| !near.is_empty()) {
+            for lane in lanes(group.in_box(box_b)) {
+                let disc = group.disc(lane, a.particle(k * WIDTH + lane));
+                for &(k, near) in &*near {
+                    for lane in lanes(of_b[k].within(&disc, slack) & near) {
+                        visit(&disc, &of_b[k].disc(lane, b.particle(k * WIDTH + lane)));
+                    }
+                }
+            }
         }
     }
 
     /// The discs of a body whose boxes overlap a box.
-    #[inline(always)]
     fn discs_in(&self, body: &BodyProxy, aabb: Aabb) -> impl Iterator<Item = Disc> {
-        self.slots_of(body).filter(move |disc| disc.aabb().overlaps(aabb))
+        self.discs_of(body).filter(move |disc| disc.aabb().overlaps(aabb))
+    }
+}
+
+impl BodyProxy {
+    /// Its particle in a slot.
+    fn particle(&self, slot: usize) -> u32 {
+        (self.first + slot * LANES) as u32
     }
 }
 
@@ -266,16 +275,16 @@ impl Bodies {
 fn portions<'a>(
     blocks: &'a [BlockRange],
     margins: &'a mut [[f32; LANES]],
-    discs: &'a mut Vec<DiscRow>,
+    discs: &'a mut Vec<DiscGroup>,
 ) -> Vec<Portion<'a>> {
-    let slots = |blocks: &[BlockRange]| blocks.iter().map(|block| block.slots).sum::<usize>();
-    discs.resize(slots(blocks), DiscRow::default());
-    let (mut rest, mut first_block, mut first_row) = (discs.as_mut_slice(), 0, 0);
+    let groups = |blocks: &[BlockRange]| blocks.iter().map(groups_in).sum::<usize>();
+    discs.resize(groups(blocks), DiscGroup::EMPTY);
+    let (mut rest, mut first_block, mut first_group) = (discs.as_mut_slice(), 0, 0);
     let portion = |(blocks, margins): (&'a [BlockRange], &'a mut [[f32; LANES]])| {
-        let discs = rest.split_off_mut(..slots(blocks)).unwrap_or_default();
-        let next = (first_block + blocks.len(), first_row + discs.len());
-        let portion = Portion { blocks, first_block, first_row, margins, discs };
-        (first_block, first_row) = next;
+        let discs = rest.split_off_mut(..groups(blocks)).unwrap_or_default();
+        let next = (first_block + blocks.len(), first_group + discs.len());
+        let portion = Portion { blocks, first_block, first_group, margins, discs };
+        (first_block, first_group) = next;
         portion
     };
     blocks.chunks(PORTION).zip(margins.chunks_mut(PORTION)).map(portion).collect()
@@ -290,11 +299,11 @@ impl Portion<'_> {
         limits: DisplacementLimits,
         dispatch: Dispatch,
     ) -> Vec<BodyProxy> {
-        let Self { blocks, first_block, mut first_row, margins, discs: mut rest } = self;
+        let Self { blocks, first_block, mut first_group, margins, discs: mut rest } = self;
         let columns = DiscColumns::of(particles);
         let mut bodies = Vec::with_capacity(blocks.len() * LANES);
         for ((range, margins), index) in blocks.iter().zip(margins).zip(first_block..) {
-            let discs = rest.split_off_mut(..range.slots).unwrap_or_default();
+            let discs = rest.split_off_mut(..groups_in(range)).unwrap_or_default();
             let boxes = dispatch.run(
                 #[inline(always)]
                 || {
@@ -304,16 +313,23 @@ impl Portion<'_> {
             );
             for (lane, margin) in margins.iter().enumerate().filter(|(lane, _)| !boxes.is_empty(*lane)) {
                 let (first, slots) = (range.entry(0, lane), range.slots);
+                let first_group = first_group + lane * slots.div_ceil(WIDTH);
                 let (owner, is_moving) = (particles.owner[first], sleep.is_moving(index, lane));
                 let (aabb, slack) = (boxes.aabb(lane), limits.slack(*margin));
                 let (block, is_linked) = (index as u32, slots > 1);
-                let body = BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, first_row, slots };
+                let body =
+                    BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, first_group, slots };
                 bodies.push(body);
             }
-            first_row += range.slots;
+            first_group += groups_in(range);
         }
         bodies
     }
+}
+
+/// How many groups the discs of a block are in.
+fn groups_in(block: &BlockRange) -> usize {
+    LANES * block.slots.div_ceil(WIDTH)
 }
 
 impl SpeculativeMargins {

@@ -10,7 +10,8 @@
 
 use super::aabb::Aabb as SearchBox;
 use super::bodies::{Bodies, BodyProxy, PairFilter};
-use super::disc_grid::{Disc, DiscColumns, DiscGrid, FluidChanges};
+use super::disc::Disc;
+use super::disc_grid::{DiscColumns, DiscGrid, FluidChanges};
 use super::exemptions::Exemptions;
 use super::images::Images;
 use super::obstacle::Obstacle;

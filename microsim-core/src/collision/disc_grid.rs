@@ -1,31 +1,12 @@
 //! Discs in a grid, searched one by one: those of membranes and fluid, which are many and move freely.
 
-use super::aabb::{Aabb, LaneBoxes};
+use super::aabb::LaneBoxes;
+use super::disc::{Disc, DiscGroup, WIDTH};
 use super::uniform_grid::UniformGrid;
 use crate::instruction_set::each;
 use crate::particle::{BlockRange, CollisionGroups, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
-
-/// What the search for pairs has to know of a particle.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Disc {
-    /// Its place in the room.
-    pub at: Vec2,
-    /// Its radius and the largest displacement of a step.
-    pub swept_radius: f32,
-    /// Which particle it is.
-    pub index: u32,
-}
-
-/// The discs in a slot of a block, one in each lane. Where nothing is that collides with anything, the radius is no number, so
-/// that it is near nothing.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct DiscRow {
-    x: [f32; LANES],
-    y: [f32; LANES],
-    swept_radius: [f32; LANES],
-}
 
 /// The columns that discs are made from, looked up once and not for each of them.
 #[derive(Clone, Copy)]
@@ -63,66 +44,39 @@ impl<'a> DiscColumns<'a> {
         (self.groups[i].memberships != 0).then(disc)
     }
 
-    /// Makes the discs of a block, and the boxes around those of each lane that collide with anything.
+    /// Makes the discs of a block, lane by lane, and the boxes around those of each lane that collide with anything.
     #[inline(always)]
-    pub(super) fn make_discs(&self, block: &BlockRange, displacement: f32, discs: &mut [DiscRow]) -> LaneBoxes {
+    pub(super) fn make_discs(&self, block: &BlockRange, displacement: f32, discs: &mut [DiscGroup]) -> LaneBoxes {
         let (mut boxes, own) = (LaneBoxes::EMPTY, self.part(block.base..block.end()));
-        for (discs, first) in discs.iter_mut().zip((0..).step_by(LANES)) {
-            let lanes = first..first + LANES;
-            let (origin_x, origin_y) = (&own.origin_x[lanes.clone()], &own.origin_y[lanes.clone()]);
-            let (x, y) = (&own.x[lanes.clone()], &own.y[lanes.clone()]);
-            let (radius, groups) = (&own.radius[lanes.clone()], &own.groups[lanes]);
-            // Both first, and then a choice: one or the other would be a branch in each lane.
-            let swept = each::<LANES>(|l| radius[l] + displacement);
-            let mut memberships = [0; LANES];
-            memberships.iter_mut().zip(groups).for_each(|(memberships, groups)| *memberships = groups.memberships);
-            *discs = DiscRow {
-                x: each(|l| origin_x[l] + x[l]),
-                y: each(|l| origin_y[l] + y[l]),
-                swept_radius: each(|l| if memberships[l] != 0 { swept[l] } else { f32::NAN }),
-            };
-            boxes.add(discs.x, discs.y, discs.swept_radius);
+        let groups = discs.len() / LANES;
+        for group in 0..groups {
+            let [mut x, mut y, mut radius] = [[[f32::NAN; LANES]; WIDTH]; 3];
+            for (k, slot) in (group * WIDTH..block.slots).take(WIDTH).enumerate() {
+                [x[k], y[k], radius[k]] = own.row(slot * LANES, displacement);
+                boxes.add(x[k], y[k], radius[k]);
+            }
+            // Not by `map`, which is not always inlined.
+            let lane = |of: &[[f32; LANES]; WIDTH], l: usize| [of[0][l], of[1][l], of[2][l], of[3][l]];
+            for (of_lane, l) in discs.chunks_exact_mut(groups).zip(0..LANES) {
+                of_lane[group] = DiscGroup { x: lane(&x, l), y: lane(&y, l), swept_radius: lane(&radius, l) };
+            }
         }
         boxes
     }
-}
 
-impl DiscRow {
-    /// One disc alone.
-    pub(super) fn of(disc: Disc) -> Self {
-        Self { x: [disc.at.x; LANES], y: [disc.at.y; LANES], swept_radius: [disc.swept_radius; LANES] }
-    }
-
-    /// The disc of a lane, of this particle.
+    /// Coordinates and swept radii of eight neighbouring particles, of those that collide with anything.
     #[inline(always)]
-    pub(super) fn disc(&self, lane: usize, index: u32) -> Disc {
-        Disc { at: Vec2::new(self.x[lane], self.y[lane]), swept_radius: self.swept_radius[lane], index }
-    }
-}
-
-impl Disc {
-    /// The box around all places that it can get to in the step.
-    #[inline(always)]
-    pub(super) fn aabb(&self) -> Aabb {
-        Aabb::around(self.at, self.swept_radius)
-    }
-
-    /// An image of it.
-    pub(super) fn moved(self, by: Vec2) -> Self {
-        Self { at: self.at + by, ..self }
-    }
-
-    /// Whether the two may touch during the step.
-    #[inline(always)]
-    pub(super) fn is_near(&self, other: &Self) -> bool {
-        self.is_within(other, 0.0)
-    }
-
-    /// The same if both together move by `slack` less than the largest displacements.
-    #[inline(always)]
-    pub(super) fn is_within(&self, other: &Self, slack: f32) -> bool {
-        let distance = self.swept_radius + other.swept_radius - slack;
-        (other.at - self.at).length_squared() < distance * distance
+    fn row(&self, first: usize, displacement: f32) -> [[f32; LANES]; 3] {
+        let lanes = first..first + LANES;
+        let (origin_x, origin_y) = (&self.origin_x[lanes.clone()], &self.origin_y[lanes.clone()]);
+        let (x, y) = (&self.x[lanes.clone()], &self.y[lanes.clone()]);
+        let (radius, groups) = (&self.radius[lanes.clone()], &self.groups[lanes]);
+        // Both first, and then a choice: one or the other would be a branch in each lane.
+        let swept = each::<LANES>(|l| radius[l] + displacement);
+        let mut memberships = [0; LANES];
+        memberships.iter_mut().zip(groups).for_each(|(memberships, groups)| *memberships = groups.memberships);
+        let swept = each(|l| if memberships[l] != 0 { swept[l] } else { f32::NAN });
+        [each(|l| origin_x[l] + x[l]), each(|l| origin_y[l] + y[l]), swept]
     }
 }
 

@@ -3,7 +3,8 @@
 use super::aabb::Aabb;
 use super::bodies::Bodies;
 use super::combine;
-use super::disc_grid::{Disc, DiscGrid};
+use super::disc::Disc;
+use super::disc_grid::DiscGrid;
 use super::exemptions::Exemptions;
 use super::link_group::{Lanes, LinkGroup, Node, finite};
 use super::ring::{Containment, FoundLink, Ring, RingContact, may_touch, side_of};

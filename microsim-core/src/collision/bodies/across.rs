@@ -4,7 +4,8 @@
 use super::{Bodies, BodyProxy, PairFilter};
 use crate::collision::Contact;
 use crate::collision::aabb::Aabb;
-use crate::collision::disc_grid::{Disc, DiscGrid};
+use crate::collision::disc::Disc;
+use crate::collision::disc_grid::DiscGrid;
 use crate::collision::images::Images;
 use crate::collision::speculative_margin::SpeculativeMargins;
 use crate::geometry::period::leads_on;
