@@ -333,11 +333,14 @@ mod tests {
 
     #[test]
     fn particles_in_the_same_place_come_apart_and_no_others_move() {
-        let places = [[0.5, 0.1], [0.5, 0.7], [0.5, 0.1], [0.2, 0.1], [0.5, 0.7], [0.2, 0.1], [0.3, 0.3]];
-        let mut neighbours = places.map(|[x, y]| Neighbour { x, y, ..Neighbour::default() });
+        // The last but two is where the fourth before it is, the last where the fifth before it is.
+        let first = [[0.5, 0.1], [0.5, 0.7], [0.5, 0.1], [0.2, 0.1], [0.5, 0.7], [0.2, 0.1], [0.3, 0.3], [0.4, 0.3]];
+        let places = [&first[..], &[[0.6, 0.3], [0.7, 0.3], [0.3, 0.3], [0.8, 0.3], [0.4, 0.3]]].concat();
+        let neighbour = |&[x, y]: &[f32; 2]| Neighbour { x, y, ..Neighbour::default() };
+        let mut neighbours: Vec<_> = places.iter().map(neighbour).collect();
         separate_coincident(&mut neighbours);
         let moved = neighbours.iter().zip(places).map(|(now, [x, y])| (now.x - x, now.y - y));
-        let expected = [0.0, 0.0, 1e-3, 0.0, 1e-3, 1e-3, 0.0].map(|by: f32| (by, 0.0));
+        let expected = [0.0, 0.0, 1e-3, 0.0, 1e-3, 1e-3, 0.0, 0.0, 0.0, 0.0, 1e-3, 0.0, 0.0].map(|by: f32| (by, 0.0));
         for ((moved, expected), k) in moved.zip(expected).zip(0..) {
             assert!((moved.0 - expected.0).abs() < 1e-6 && moved.1 == expected.1, "{k}: {moved:?}");
         }
