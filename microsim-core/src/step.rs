@@ -337,9 +337,9 @@ fn repair_membranes(world: &mut World) {
 }
 
 fn diffuse_chemicals(world: &mut World) {
-    let World { config, particles, organisms, chemicals, .. } = world;
+    let World { config, particles, organisms, chemicals, dispatch, .. } = world;
     exchange::exchange(organisms, particles, chemicals, config.dt);
-    chemicals.iter_mut().for_each(|chemical| chemical.advance(config.dt));
+    chemicals.iter_mut().for_each(|chemical| chemical.advance(config.dt, *dispatch));
 }
 
 fn conclude(world: &mut World) {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: &[(&str, &str)] = &[
     ("arena bare_text error float_environment fnv geometry instruction_set look rng shared value_walk", ""),
     ("parallel", "float_environment"),
-    ("chemical", "config error"),
+    ("chemical", "config error instruction_set"),
     ("config spec_field", "error"),
     ("particle", "shared"),
     ("actuation", "error"),

@@ -81,6 +81,7 @@ impl DiffusionGrid {
     }
 
     /// One round: `spread` is the diffusion coefficient times the time of the round, `keep` the share that does not decay.
+    #[inline(always)]
     pub(super) fn diffuse(&self, values: &mut [f32], spread: f32, keep: f32) {
         let [columns, rows] = self.count;
         let share = spread / (self.cell * self.cell);

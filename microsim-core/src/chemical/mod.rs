@@ -9,6 +9,7 @@ mod spec;
 
 use crate::config::WorldConfig;
 use crate::error::Error;
+use crate::instruction_set::Dispatch;
 use diffusion::DiffusionGrid;
 use glam::Vec2;
 use resampling::Resampling;
@@ -104,10 +105,14 @@ impl Chemical {
     }
 
     /// One step: diffusion and decay.
-    pub(crate) fn advance(&mut self, dt: f32) {
+    pub(crate) fn advance(&mut self, dt: f32, dispatch: Dispatch) {
         let h = dt / self.rounds as f32;
         for _ in 0..self.rounds {
-            self.grid.diffuse(&mut self.values, self.spec.diffusion * h, 1.0 / (1.0 + self.spec.decay * h));
+            let (spread, keep) = (self.spec.diffusion * h, 1.0 / (1.0 + self.spec.decay * h));
+            dispatch.run(
+                #[inline(always)]
+                || self.grid.diffuse(&mut self.values, spread, keep),
+            );
         }
     }
 
@@ -203,7 +208,7 @@ mod tests {
         let (mut expected, keep) = (0.0, (1.0 + f64::from(0.5 * DT) / f64::from(chemical.rounds)).powi(-1));
         for _ in 0..3600 {
             chemical.add(Vec2::new(13.3, 41.7), 7.0 * DT);
-            chemical.advance(DT);
+            chemical.advance(DT, Dispatch::default());
             expected = (expected + 7.0 * f64::from(DT)) * keep.powi(chemical.rounds as i32);
         }
         assert!((chemical.amount() / expected - 1.0).abs() < 1e-4, "{} instead of {expected}", chemical.amount());
@@ -216,7 +221,7 @@ mod tests {
         let mut chemical = Chemical::new(spec, &room(41.0, 41.0)).unwrap();
         for _ in 0..200 {
             chemical.add(Vec2::splat(20.5), DT);
-            chemical.advance(DT);
+            chemical.advance(DT, Dispatch::default());
         }
         let at = |x: usize, y: usize| chemical.values()[y * 41 + x].to_bits();
         for (x, y) in (0..41).flat_map(|x| (0..41).map(move |y| (x, y))) {
@@ -237,7 +242,7 @@ mod tests {
         let mut chemical = Chemical::new(spec, &room(161.0, 161.0)).unwrap();
         for _ in 0..900 {
             chemical.add(centre, rate * DT);
-            chemical.advance(DT);
+            chemical.advance(DT, Dispatch::default());
         }
         let closed = |r: f32| f64::from(rate) / (std::f64::consts::TAU * 100.0) * k0(f64::from(r / spec.range()));
         for r in [6.0, 8.0, 16.0, 32.0] {
@@ -256,7 +261,7 @@ mod tests {
         chemical.close([Vec2::new(38.5, 0.0), Vec2::new(41.5, 60.0)], |at| (at.x - 40.0).abs() < 1.5);
         for _ in 0..600 {
             chemical.add(Vec2::new(20.0, 30.0), DT);
-            chemical.advance(DT);
+            chemical.advance(DT, Dispatch::default());
         }
         assert!((chemical.amount() - 10.0).abs() < 1e-2, "{}", chemical.amount());
         assert_eq!(chemical.concentration(Vec2::new(60.0, 30.0)), 0.0);
@@ -269,7 +274,7 @@ mod tests {
         let mut chemical = chemical(ChemicalSpec::default());
         for _ in 0..4 {
             chemical.add(Vec2::new(30.0, 30.0), f32::MAX);
-            chemical.advance(DT);
+            chemical.advance(DT, Dispatch::default());
             assert!(chemical.values().iter().all(|&value| (0.0..=HIGHEST).contains(&value)));
         }
     }
@@ -294,7 +299,7 @@ mod tests {
                 chemical.add(Vec2::new(9.0, 4.0), 100.0);
                 let mut highest = chemical.values().iter().copied().fold(0.0, f32::max);
                 for _ in 0..20 {
-                    chemical.advance(dt);
+                    chemical.advance(dt, Dispatch::default());
                     let now = chemical.values().iter().copied().fold(0.0, f32::max);
                     prop_assert!(chemical.values().iter().all(|&value| value >= 0.0) && now <= highest * 1.0001);
                     highest = now;

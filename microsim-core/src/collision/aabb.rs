@@ -1,5 +1,6 @@
 //! Axis-aligned bounding boxes that are quick to compare: most of a pair search asks whether two of them overlap.
 
+use crate::instruction_set::each;
 use crate::particle::LANES;
 use glam::{Vec2, Vec4, Vec4Swizzles};
 
@@ -65,37 +66,39 @@ impl Aabb {
     }
 }
 
-/// A box for each lane of a block, which grows disc by disc.
+/// A box for each lane of a block, which grows disc by disc; as in [`Aabb`].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LaneBoxes {
-    /// As in [`Aabb`].
-    sides: [[f32; LANES]; 4],
-    /// Number of discs in each.
-    pub counts: [usize; LANES],
-}
+pub(super) struct LaneBoxes([[f32; LANES]; 4]);
 
 impl LaneBoxes {
     /// Without any disc.
-    pub(super) const EMPTY: Self = Self { sides: [[f32::NEG_INFINITY; LANES]; 4], counts: [0; LANES] };
+    pub(super) const EMPTY: Self = Self([[f32::NEG_INFINITY; LANES]; 4]);
 
-    /// Adds a disc to each lane in which there is one.
+    /// Adds a disc to each lane in which the radius is a number.
     #[inline(always)]
-    pub(super) fn add(&mut self, x: [f32; LANES], y: [f32; LANES], radius: [f32; LANES], is_there: [bool; LANES]) {
-        let [low_x, low_y, high_x, high_y] = &mut self.sides;
-        for l in 0..LANES {
-            let add = |side: &mut f32, value: f32| *side = if is_there[l] & (value > *side) { value } else { *side };
-            add(&mut low_x[l], -(x[l] - radius[l]));
-            add(&mut low_y[l], -(y[l] - radius[l]));
-            add(&mut high_x[l], x[l] + radius[l]);
-            add(&mut high_y[l], y[l] + radius[l]);
-        }
-        self.counts.iter_mut().zip(is_there).for_each(|(count, is_there)| *count += usize::from(is_there));
+    pub(super) fn add(&mut self, x: [f32; LANES], y: [f32; LANES], radius: [f32; LANES]) {
+        let [low_x, low_y, high_x, high_y] = &mut self.0;
+        *low_x = each(|l| larger(-(x[l] - radius[l]), low_x[l]));
+        *low_y = each(|l| larger(-(y[l] - radius[l]), low_y[l]));
+        *high_x = each(|l| larger(x[l] + radius[l], high_x[l]));
+        *high_y = each(|l| larger(y[l] + radius[l], high_y[l]));
+    }
+
+    /// Whether there is no disc in a lane.
+    pub(super) fn is_empty(&self, lane: usize) -> bool {
+        self.0[0][lane] == f32::NEG_INFINITY
     }
 
     /// The box of one lane.
     pub(super) fn aabb(&self, lane: usize) -> Aabb {
-        Aabb(self.sides.map(|side| side[lane]).into())
+        Aabb(self.0.map(|side| side[lane]).into())
     }
+}
+
+/// The larger one of two numbers, or the second one if the first is none.
+#[inline(always)]
+fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
 
 #[cfg(test)]
@@ -131,18 +134,23 @@ mod tests {
     fn boxes_of_lanes_are_those_of_their_discs() {
         let mut boxes = LaneBoxes::EMPTY;
         let lanes = |first: f32| std::array::from_fn::<f32, LANES, _>(|l| first + 0.7 * l as f32);
-        let mut is_there = [true; LANES];
-        boxes.add(lanes(1.0), lanes(-3.0), lanes(0.1), is_there);
-        is_there[2] = false;
-        boxes.add(lanes(-2.0), lanes(0.3), lanes(0.2), is_there);
-        boxes.add([f32::NAN; LANES], lanes(9.0), lanes(0.5), [false; LANES]);
+        let mut radius = lanes(0.1);
+        radius[5] = f32::NAN;
+        boxes.add(lanes(1.0), lanes(-3.0), radius);
+        radius = lanes(0.2);
+        (radius[2], radius[5]) = (f32::NAN, f32::NAN);
+        boxes.add(lanes(-2.0), lanes(0.3), radius);
+        boxes.add(lanes(7.0), lanes(9.0), [f32::NAN; LANES]);
         for l in 0..LANES {
             let aabb = |x: f32, y: f32, r: f32| Aabb::new(Vec2::new(x - r, y - r), Vec2::new(x + r, y + r));
             let first = aabb(lanes(1.0)[l], lanes(-3.0)[l], lanes(0.1)[l]);
             let second = aabb(lanes(-2.0)[l], lanes(0.3)[l], lanes(0.2)[l]);
-            let expected = if l == 2 { first } else { first.union(second) };
-            assert_eq!(boxes.aabb(l).0, expected.0, "lane {l}");
-            assert_eq!(boxes.counts[l], if l == 2 { 1 } else { 2 });
+            let expected = match l {
+                2 => first,
+                5 => Aabb::EMPTY,
+                _ => first.union(second),
+            };
+            assert_eq!((boxes.aabb(l).0, boxes.is_empty(l)), (expected.0, l == 5), "lane {l}");
         }
     }
 

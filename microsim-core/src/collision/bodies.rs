@@ -4,14 +4,14 @@
 //! Bodies differ in size by a factor of ten and more, so there are two grids of them: small bodies in a fine one, large ones
 //! in a coarse one, and large ones also look through the fine one.
 //!
-//! The discs of sleepers are hardly ever asked for, so only their boxes are made.
+//! The discs of a body lie side by side, so that four at a time are looked at.
 
 mod across;
-mod disc_list;
 mod pair_filter;
 
-use super::aabb::{Aabb, LaneBoxes};
-use super::disc_grid::{Disc, DiscColumns, DiscGrid};
+use super::aabb::Aabb;
+use super::disc::{Disc, DiscGroup, WIDTH, lanes};
+use super::disc_grid::{DiscColumns, DiscGrid};
 use super::images::Images;
 use super::speculative_margin::{DisplacementLimits, SpeculativeMargins, margins_of};
 use super::uniform_grid::UniformGrid;
@@ -20,10 +20,8 @@ use crate::instruction_set::Dispatch;
 use crate::parallel;
 use crate::particle::sleep::{NO_BLOCK, Sleep};
 use crate::particle::{BlockRange, LANES, Particles};
-use disc_list::DiscList;
 use glam::Vec2;
 pub(super) use pair_filter::PairFilter;
-use std::borrow::Cow;
 use std::ops::Range;
 
 /// Rows of cells that are searched at a time, a fixed number whatever the number of threads.
@@ -46,10 +44,10 @@ pub(super) struct BodyProxy {
     is_moving: bool,
     /// Whether constraints link its discs.
     is_linked: bool,
-    /// Its particle in slot 0, and the number of its slots.
+    /// Its particle in slot 0, the group that the disc of that is in, and the number of its slots.
     first: usize,
+    first_group: usize,
     slots: usize,
-    discs: Range<usize>,
 }
 
 /// Bodies of like size, in the order of the cells that their centres are in.
@@ -61,30 +59,27 @@ struct SizeClass {
     extent: f32,
 }
 
-/// Some of the blocks, and the part of a list with an entry for each or for each of their particles.
-struct Portion<'a, T> {
+/// Some of the blocks, their margins, and their discs.
+struct Portion<'a> {
     blocks: &'a [BlockRange],
     first_block: usize,
-    first_disc: usize,
-    list: &'a mut [T],
+    first_group: usize,
+    margins: &'a mut [[f32; LANES]],
+    discs: &'a mut [DiscGroup],
 }
 
 /// All bodies.
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
-    /// Block by block, in each of them lane by lane, then single ones; entries between two bodies are unused.
-    discs: Vec<Disc>,
-    /// By block.
-    has_discs: Vec<bool>,
-    /// Largest displacement of a particle in the step, units.
-    displacement: f32,
+    /// Block by block, in each of them lane by lane, then single ones.
+    discs: Vec<DiscGroup>,
     found: Vec<BodyProxy>,
     small: SizeClass,
     large: SizeClass,
 }
 
 impl Bodies {
-    /// Replaces all bodies by those in some blocks, without discs, and sets their speculative margins.
+    /// Replaces all bodies by those in some blocks, and sets their speculative margins.
     pub(super) fn collect(
         &mut self,
         blocks: &[BlockRange],
@@ -94,31 +89,19 @@ impl Bodies {
         margins: &mut SpeculativeMargins,
         dispatch: Dispatch,
     ) {
-        self.displacement = limits.step;
-        self.discs.resize(blocks.iter().map(BlockRange::len).sum(), Disc::default());
-        let portions = portions(blocks, margins.reset(blocks.len()), |_| 1);
+        let portions = portions(blocks, margins.reset(blocks.len()), &mut self.discs);
         let collected = parallel::map(portions, |portion| portion.collect(particles, sleep, limits, dispatch));
         self.found.clear();
         self.found.extend(collected.into_iter().flatten());
     }
 
-    /// Makes the discs of all that is awake in the blocks.
-    pub(super) fn make_discs(&mut self, blocks: &[BlockRange], particles: &Particles, sleep: &Sleep) {
-        let Self { discs, has_discs, displacement, .. } = self;
-        has_discs.clear();
-        has_discs.extend((0..).map(|k| !sleep.is_asleep(k)).take(blocks.len()));
-        let portions = portions(blocks, discs, BlockRange::len);
-        parallel::for_each(portions, |portion| portion.make_discs(particles, has_discs, *displacement));
-    }
-
     /// Makes a body of a disc on its own.
     pub(super) fn add_single(&mut self, disc: Disc, owner: u32) {
-        let (aabb, end) = (disc.aabb(), self.discs.len());
-        let (lane, slack, is_moving, discs) = (0, 0.0, true, end..end + 1);
-        let (is_linked, first, slots) = (false, disc.index as usize, 1);
-        let block = NO_BLOCK;
-        self.found.push(BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, slots, discs });
-        self.discs.push(disc);
+        let (aabb, block, lane, slack, is_moving) = (disc.aabb(), NO_BLOCK, 0, 0.0, true);
+        let (is_linked, first, first_group, slots) = (false, disc.index as usize, self.discs.len(), 1);
+        let body = BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, first_group, slots };
+        self.found.push(body);
+        self.discs.push(DiscGroup::of(disc));
     }
 
     /// Sorts the bodies for the search.
@@ -134,35 +117,23 @@ impl Bodies {
         self.small.bodies.iter().chain(&self.large.bodies)
     }
 
-    /// Its discs, if they have been made.
-    fn made_discs(&self, body: &BodyProxy) -> Option<&[Disc]> {
-        let are_made = body.block == NO_BLOCK || self.has_discs[body.block as usize];
-        are_made.then(|| &self.discs[body.discs.clone()])
+    /// Its discs that collide with anything.
+    pub(super) fn discs_of(&self, body: &BodyProxy) -> impl Iterator<Item = Disc> {
+        let groups = self.groups_of(body);
+        let discs = (0..body.slots).map(|slot| groups[slot / WIDTH].disc(slot % WIDTH, body.particle(slot)));
+        discs.filter(|disc| !disc.swept_radius.is_nan())
     }
 
-    /// The discs of a sleeper.
-    #[cold]
-    #[inline(never)]
-    fn missing_discs(&self, body: &BodyProxy, particles: &Particles) -> Vec<Disc> {
-        self.discs_of(body, particles).collect()
-    }
-
-    /// Its discs.
-    #[inline]
-    pub(super) fn discs_of(&self, body: &BodyProxy, particles: &Particles) -> impl Iterator<Item = Disc> {
-        let (made, missing) = self.made_discs(body).map_or((&[][..], body.slots), |discs| (discs, 0));
-        let (columns, first, displacement) = (DiscColumns::of(particles), body.first, self.displacement);
-        let others = (0..missing).filter_map(move |slot| columns.disc(first + slot * LANES, displacement));
-        made.iter().copied().chain(others)
+    fn groups_of(&self, body: &BodyProxy) -> &[DiscGroup] {
+        &self.discs[body.first_group..body.first_group + body.slots.div_ceil(WIDTH)]
     }
 
     /// Calls `visit` once for each disc of a body and each disc of a grid that may touch.
-    pub(super) fn pairs_with(&self, grid: &DiscGrid, particles: &Particles, mut visit: impl FnMut(&Disc, &Disc)) {
-        for body in self.iter() {
+    pub(super) fn pairs_with(&self, grid: &DiscGrid, mut visit: impl FnMut(&Disc, &Disc)) {
+        for body in self.iter().filter(|_| !grid.is_empty()) {
             let near_body = grid.in_box(body.aabb.low(), body.aabb.high());
             near_body.filter(|other| other.aabb().overlaps(body.aabb)).for_each(|other| {
-                let near = self.discs_of(body, particles).filter(|disc| disc.is_near(other));
-                near.for_each(|disc| visit(&disc, other));
+                self.discs_of(body).filter(|disc| disc.is_near(other)).for_each(|disc| visit(&disc, other));
             });
         }
     }
@@ -194,7 +165,7 @@ impl Bodies {
     /// Adds the contacts of discs that may touch within the speculative margins: of small bodies to the lists, strip by strip of
     /// rows, of large ones to the others.
     pub(super) fn pairs(&self, filter: PairFilter<'_>, strips: &mut Vec<Vec<Contact>>, others: &mut Vec<Contact>) {
-        let between = |a: &BodyProxy, b: &BodyProxy, near: &mut DiscList, found: &mut Vec<Contact>| {
+        let between = |a: &BodyProxy, b: &BodyProxy, near: &mut Vec<(usize, u32)>, found: &mut Vec<Contact>| {
             if a.aabb.shrunk(a.slack + b.slack).overlaps(b.aabb)
                 && let Some(mobility) = filter.mobility(a, b)
             {
@@ -202,14 +173,14 @@ impl Bodies {
             }
         };
         let within = |class: &SizeClass, rows: Range<usize>, found: &mut Vec<Contact>| {
-            let mut near = DiscList::default();
+            let mut near = Vec::new();
             class.grid.pairs(rows, |a, b| between(&class.bodies[a], &class.bodies[b], &mut near, found));
         };
         let rows = (0..self.small.grid.rows()).step_by(STRIP).map(|row| row..row + STRIP);
         strips.resize_with(rows.len(), Vec::new);
         parallel::for_each(rows.zip(strips).collect(), |(rows, found)| within(&self.small, rows, found));
         within(&self.large, 0..self.large.grid.rows(), others);
-        let mut near = DiscList::default();
+        let mut near = Vec::new();
         for body in &self.large.bodies {
             for other in self.small.overlapping(body.aabb) {
                 between(body, other, &mut near, others);
@@ -227,7 +198,7 @@ impl Bodies {
         images: Option<&Images>,
         found: &mut Vec<Contact>,
     ) {
-        let mut near = DiscList::default();
+        let mut near = Vec::new();
         for body in self.iter().filter(|body| body.block != NO_BLOCK) {
             if margins.remaining(body.block, body.lane) >= next {
                 continue;
@@ -235,7 +206,7 @@ impl Bodies {
             for other in self.in_box(body.aabb.low(), body.aabb.high()) {
                 let Some(mobility) = filter.mobility(body, other) else { continue };
                 let slack = margins.slack_of(other);
-                self.pairs_between([body, other], filter.particles, slack, &mut near, |a, b| {
+                self.pairs_between([body, other], slack, &mut near, |a, b| {
                     if !a.is_within(b, body.slack + slack) {
                         found.extend(filter.contact(a, b, mobility));
                     }
@@ -255,62 +226,72 @@ impl Bodies {
         [a, b]: [&BodyProxy; 2],
         mobility: [Mobility; 2],
         filter: PairFilter<'_>,
-        near: &mut DiscList,
+        near: &mut Vec<(usize, u32)>,
         found: &mut Vec<Contact>,
     ) {
-        self.pairs_between([a, b], filter.particles, a.slack + b.slack, near, |a, b| {
-            found.extend(filter.contact(a, b, mobility));
-        });
+        self.pairs_between([a, b], a.slack + b.slack, near, |a, b| found.extend(filter.contact(a, b, mobility)));
     }
 
     /// Calls `visit` for each two discs of two bodies that may touch if both together move by `slack` less than the largest
-    /// displacements.
+    /// displacements. `near` is room for the groups of the second one that are near the first one, and which discs of each are.
     fn pairs_between(
         &self,
         [a, b]: [&BodyProxy; 2],
-        particles: &Particles,
         slack: f32,
-        near: &mut DiscList,
+        near: &mut Vec<(usize, u32)>,
         mut visit: impl FnMut(&Disc, &Disc),
     ) {
+        let (of_a, of_b) = (self.groups_of(a), self.groups_of(b));
+        let (box_a, box_b) = (a.aabb.shrunk(slack), b.aabb.shrunk(slack));
         near.clear();
-        self.for_each_disc_in(b, a.aabb.shrunk(slack), particles, |disc| near.push(*disc));
-        if near.is_empty() {
-            return;
+        let in_box_a = of_b.iter().map(|group| group.in_box(box_a)).enumerate();
+        near.extend(in_box_a.filter(|(_, near)| *near != 0));
+        for (group, k) in of_a.iter().zip(0..).filter(|_| !near.is_empty()) {
+            for lane in lanes(group.in_box(box_b)) {
+                let disc = group.disc(lane, a.particle(k * WIDTH + lane));
+                for &(k, near) in &*near {
+                    for lane in lanes(of_b[k].within(&disc, slack) & near) {
+                        visit(&disc, &of_b[k].disc(lane, b.particle(k * WIDTH + lane)));
+                    }
+                }
+            }
         }
-        self.for_each_disc_in(a, b.aabb.shrunk(slack), particles, |disc| {
-            near.for_each_within(disc, slack, |other| visit(disc, other));
-        });
     }
 
-    /// Calls `visit` for each disc of a body whose box overlaps a box.
-    #[inline(always)]
-    fn for_each_disc_in(&self, body: &BodyProxy, aabb: Aabb, particles: &Particles, visit: impl FnMut(&Disc)) {
-        let discs =
-            self.made_discs(body).map_or_else(|| Cow::Owned(self.missing_discs(body, particles)), Cow::Borrowed);
-        discs.iter().filter(|disc| disc.aabb().overlaps(aabb)).for_each(visit);
+    /// The discs of a body whose boxes overlap a box.
+    fn discs_in(&self, body: &BodyProxy, aabb: Aabb) -> impl Iterator<Item = Disc> {
+        self.discs_of(body).filter(move |disc| disc.aabb().overlaps(aabb))
     }
 }
 
-/// The blocks in portions of fixed size, with the parts of a list of which each block has as many entries as `len` says.
-fn portions<'a, T>(
+impl BodyProxy {
+    /// Its particle in a slot.
+    fn particle(&self, slot: usize) -> u32 {
+        (self.first + slot * LANES) as u32
+    }
+}
+
+/// The blocks in portions of fixed size, with their margins and room for their discs.
+fn portions<'a>(
     blocks: &'a [BlockRange],
-    mut list: &'a mut [T],
-    len: impl Fn(&BlockRange) -> usize,
-) -> Vec<Portion<'a, T>> {
-    let (mut portions, mut first_block, mut first_disc) = (Vec::new(), 0, 0);
-    for blocks in blocks.chunks(PORTION) {
-        let (own, others) = list.split_at_mut(blocks.iter().map(&len).sum());
-        portions.push(Portion { blocks, first_block, first_disc, list: own });
-        list = others;
-        (first_block, first_disc) =
-            (first_block + blocks.len(), first_disc + blocks.iter().map(BlockRange::len).sum::<usize>());
-    }
-    portions
+    margins: &'a mut [[f32; LANES]],
+    discs: &'a mut Vec<DiscGroup>,
+) -> Vec<Portion<'a>> {
+    let groups = |blocks: &[BlockRange]| blocks.iter().map(groups_in).sum::<usize>();
+    discs.resize(groups(blocks), DiscGroup::EMPTY);
+    let (mut rest, mut first_block, mut first_group) = (discs.as_mut_slice(), 0, 0);
+    let portion = |(blocks, margins): (&'a [BlockRange], &'a mut [[f32; LANES]])| {
+        let discs = rest.split_off_mut(..groups(blocks)).unwrap_or_default();
+        let next = (first_block + blocks.len(), first_group + discs.len());
+        let portion = Portion { blocks, first_block, first_group, margins, discs };
+        (first_block, first_group) = next;
+        portion
+    };
+    blocks.chunks(PORTION).zip(margins.chunks_mut(PORTION)).map(portion).collect()
 }
 
-impl Portion<'_, [f32; LANES]> {
-    /// Its bodies, after their margins have been written.
+impl Portion<'_> {
+    /// Its bodies, after margins and discs have been written.
     fn collect(
         self,
         particles: &Particles,
@@ -318,54 +299,37 @@ impl Portion<'_, [f32; LANES]> {
         limits: DisplacementLimits,
         dispatch: Dispatch,
     ) -> Vec<BodyProxy> {
+        let Self { blocks, first_block, mut first_group, margins, discs: mut rest } = self;
         let columns = DiscColumns::of(particles);
-        let mut bodies = Vec::with_capacity(self.blocks.len() * LANES);
-        let mut first_disc = self.first_disc;
-        for ((block, margins), index) in self.blocks.iter().zip(self.list).zip(self.first_block..) {
+        let mut bodies = Vec::with_capacity(blocks.len() * LANES);
+        for ((range, margins), index) in blocks.iter().zip(margins).zip(first_block..) {
+            let discs = rest.split_off_mut(..groups_in(range)).unwrap_or_default();
             let boxes = dispatch.run(
                 #[inline(always)]
                 || {
-                    *margins = margins_of(block, particles, limits);
-                    boxes_of(block, columns, limits.step)
+                    *margins = margins_of(range, particles, limits);
+                    columns.make_discs(range, limits.step, discs)
                 },
             );
-            for (lane, margin) in margins.iter().enumerate().filter(|(lane, _)| boxes.counts[*lane] > 0) {
-                let (first, slots) = (block.entry(0, lane), block.slots);
+            for (lane, margin) in margins.iter().enumerate().filter(|(lane, _)| !boxes.is_empty(*lane)) {
+                let (first, slots) = (range.entry(0, lane), range.slots);
+                let first_group = first_group + lane * slots.div_ceil(WIDTH);
                 let (owner, is_moving) = (particles.owner[first], sleep.is_moving(index, lane));
-                let discs = first_disc + lane * slots..first_disc + lane * slots + boxes.counts[lane];
                 let (aabb, slack) = (boxes.aabb(lane), limits.slack(*margin));
                 let (block, is_linked) = (index as u32, slots > 1);
-                bodies.push(BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, slots, discs });
+                let body =
+                    BodyProxy { aabb, owner, block, lane, slack, is_moving, is_linked, first, first_group, slots };
+                bodies.push(body);
             }
-            first_disc += block.len();
+            first_group += groups_in(range);
         }
         bodies
     }
 }
 
-impl Portion<'_, Disc> {
-    /// Makes the discs of the blocks that have any.
-    fn make_discs(self, particles: &Particles, has_discs: &[bool], displacement: f32) {
-        let (columns, mut rest) = (DiscColumns::of(particles), self.list);
-        for (block, has_discs) in self.blocks.iter().zip(&has_discs[self.first_block..]) {
-            let (own, others) = rest.split_at_mut(block.len());
-            for lane in (0..LANES).filter(|_| *has_discs) {
-                let discs = (0..block.slots).filter_map(|slot| columns.disc(block.entry(slot, lane), displacement));
-                own[lane * block.slots..].iter_mut().zip(discs).for_each(|(own, disc)| *own = disc);
-            }
-            rest = others;
-        }
-    }
-}
-
-/// The boxes around the discs of each lane of a block.
-#[inline(always)]
-fn boxes_of(block: &BlockRange, columns: DiscColumns<'_>, displacement: f32) -> LaneBoxes {
-    let mut boxes = LaneBoxes::EMPTY;
-    for slot in 0..block.slots {
-        columns.add_to_boxes(block.entry(slot, 0), displacement, &mut boxes);
-    }
-    boxes
+/// How many groups the discs of a block are in.
+fn groups_in(block: &BlockRange) -> usize {
+    LANES * block.slots.div_ceil(WIDTH)
 }
 
 impl SpeculativeMargins {

@@ -10,7 +10,8 @@
 
 use super::aabb::Aabb as SearchBox;
 use super::bodies::{Bodies, BodyProxy, PairFilter};
-use super::disc_grid::{Disc, DiscColumns, DiscGrid, FluidChanges};
+use super::disc::Disc;
+use super::disc_grid::{DiscColumns, DiscGrid, FluidChanges};
 use super::exemptions::Exemptions;
 use super::images::Images;
 use super::obstacle::Obstacle;
@@ -85,7 +86,6 @@ impl BroadPhase {
             self.keep_awake(input, sleep);
         }
         let sleep = &*sleep;
-        self.bodies.make_discs(input.blocks, input.particles, sleep);
         let Self { contacts, ring_contacts, bodies, membranes, fluid, fluid_changes, images, .. } = self;
         let (contacts, bodies) = (contacts.get_mut_or(Contacts::blank), &*bodies);
         let filter = PairFilter {
@@ -154,13 +154,15 @@ impl BroadPhase {
         membranes.found.clear();
         fluid.found.clear();
         bodies.collect(blocks, p, sleep, limits, margins, dispatch);
-        let columns = DiscColumns::of(p);
-        for i in outside_of(blocks.iter().copied(), p.len()).flatten() {
-            let Some(disc) = columns.disc(i, limits.step) else { continue };
-            match (p.fluid[i], p.next_in_ring[i]) {
-                (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
-                (0, _) => membranes.found.push(disc),
-                _ => fluid.found.push(disc),
+        let (columns, in_fluid, next_in_ring) = (DiscColumns::of(p), &p.fluid[..p.len()], &p.next_in_ring[..p.len()]);
+        for range in outside_of(blocks.iter().copied(), p.len()) {
+            for i in range {
+                let Some(disc) = columns.disc(i, limits.step) else { continue };
+                match (in_fluid[i], next_in_ring[i]) {
+                    (0, NO_OWNER) => bodies.add_single(disc, p.owner[i]),
+                    (0, _) => membranes.found.push(disc),
+                    _ => fluid.found.push(disc),
+                }
             }
         }
         let bodies_and_membranes = || {
@@ -230,7 +232,7 @@ impl BroadPhase {
             is_inside && p.inv_mass[i] > 0.0 && p.groups[i].meets(groups)
         };
         let awake = bodies.in_box(low, high).filter(|body| !sleep.is_asleep(body.block));
-        let of_bodies = awake.flat_map(|body| bodies.discs_of(body, input.particles));
+        let of_bodies = awake.flat_map(|body| bodies.discs_of(body));
         let of_grids = [&*membranes, &*fluid].into_iter().flat_map(|grid| grid.in_box(low, high).copied());
         let near = of_bodies.chain(of_grids).filter(is_near);
         let contacts = if is_sensor { sensor_contacts } else { obstacle_contacts };
@@ -254,10 +256,10 @@ fn find_contacts(
     let mut consider = |a: &Disc, b: &Disc| others.extend(contact(a, b, input));
     membranes.pairs(&mut consider);
     if !fluid.is_empty() {
-        bodies.pairs_with(fluid, input.particles, &mut consider);
+        bodies.pairs_with(fluid, &mut consider);
     }
     if input.rings.is_empty() {
-        bodies.pairs_with(membranes, input.particles, &mut consider);
+        bodies.pairs_with(membranes, &mut consider);
         for node in membranes.iter() {
             fluid.near(node).for_each(|other| consider(node, other));
         }
@@ -295,7 +297,7 @@ fn fluid_across(bodies: &Bodies, fluid: &DiscGrid, images: &Images, input: Searc
     let mut consider = |image: &Disc, other: &Disc, shift: Vec2| {
         found.extend(contact(image, other, input).map(|contact| contact.with_image(shift)));
     };
-    bodies.pairs_across_with(images, fluid, input.particles, &mut consider);
+    bodies.pairs_across_with(images, fluid, &mut consider);
     for disc in fluid.iter() {
         for shift in images.ahead(disc.aabb()) {
             let image = disc.moved(shift);

@@ -1,22 +1,12 @@
 //! Discs in a grid, searched one by one: those of membranes and fluid, which are many and move freely.
 
-use super::aabb::{Aabb, LaneBoxes};
+use super::aabb::LaneBoxes;
+use super::disc::{Disc, DiscGroup, WIDTH};
 use super::uniform_grid::UniformGrid;
 use crate::instruction_set::each;
-use crate::particle::{CollisionGroups, LANES, Particles};
+use crate::particle::{BlockRange, CollisionGroups, LANES, Particles};
 use glam::Vec2;
 use std::ops::Range;
-
-/// What the search for pairs has to know of a particle.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Disc {
-    /// Its place in the room.
-    pub at: Vec2,
-    /// Its radius and the largest displacement of a step.
-    pub swept_radius: f32,
-    /// Which particle it is.
-    pub index: u32,
-}
 
 /// The columns that discs are made from, looked up once and not for each of them.
 #[derive(Clone, Copy)]
@@ -32,7 +22,16 @@ pub(super) struct DiscColumns<'a> {
 impl<'a> DiscColumns<'a> {
     pub(super) fn of(particles: &'a Particles) -> Self {
         let Particles { origin_x, origin_y, x, y, radius, groups, .. } = particles;
-        Self { origin_x, origin_y, x, y, radius, groups }
+        Self { origin_x, origin_y, x, y, radius, groups }.part(0..particles.len())
+    }
+
+    /// Some of them, with lengths that the compiler sees to be equal.
+    #[inline(always)]
+    fn part(&self, range: Range<usize>) -> Self {
+        let Self { origin_x, origin_y, x, y, radius, groups } = *self;
+        let [origin_x, origin_y, x, y, radius] =
+            [origin_x, origin_y, x, y, radius].map(|column| &column[range.clone()]);
+        Self { origin_x, origin_y, x, y, radius, groups: &groups[range] }
     }
 
     /// Particle `i`, if it collides with anything.
@@ -45,45 +44,39 @@ impl<'a> DiscColumns<'a> {
         (self.groups[i].memberships != 0).then(disc)
     }
 
-    /// Adds the boxes of eight neighbouring particles, of those that collide with anything.
+    /// Makes the discs of a block, lane by lane, and the boxes around those of each lane that collide with anything.
     #[inline(always)]
-    pub(super) fn add_to_boxes(&self, first: usize, displacement: f32, boxes: &mut LaneBoxes) {
+    pub(super) fn make_discs(&self, block: &BlockRange, displacement: f32, discs: &mut [DiscGroup]) -> LaneBoxes {
+        let (mut boxes, own) = (LaneBoxes::EMPTY, self.part(block.base..block.end()));
+        let groups = discs.len() / LANES;
+        for group in 0..groups {
+            let [mut x, mut y, mut radius] = [[[f32::NAN; LANES]; WIDTH]; 3];
+            for (k, slot) in (group * WIDTH..block.slots).take(WIDTH).enumerate() {
+                [x[k], y[k], radius[k]] = own.row(slot * LANES, displacement);
+                boxes.add(x[k], y[k], radius[k]);
+            }
+            // Not by `map`, which is not always inlined.
+            let lane = |of: &[[f32; LANES]; WIDTH], l: usize| [of[0][l], of[1][l], of[2][l], of[3][l]];
+            for (of_lane, l) in discs.chunks_exact_mut(groups).zip(0..LANES) {
+                of_lane[group] = DiscGroup { x: lane(&x, l), y: lane(&y, l), swept_radius: lane(&radius, l) };
+            }
+        }
+        boxes
+    }
+
+    /// Coordinates and swept radii of eight neighbouring particles, of those that collide with anything.
+    #[inline(always)]
+    fn row(&self, first: usize, displacement: f32) -> [[f32; LANES]; 3] {
         let lanes = first..first + LANES;
-        let sum = |a: &[f32], b: &[f32]| {
-            let (a, b) = (&a[lanes.clone()], &b[lanes.clone()]);
-            each::<LANES>(|l| a[l] + b[l])
-        };
-        let (radius, groups) = (&self.radius[lanes.clone()], &self.groups[lanes.clone()]);
-        let swept = each(|l| radius[l] + displacement);
-        let mut is_there = [false; LANES];
-        is_there.iter_mut().zip(groups).for_each(|(is_there, groups)| *is_there = groups.memberships != 0);
-        boxes.add(sum(self.origin_x, self.x), sum(self.origin_y, self.y), swept, is_there);
-    }
-}
-
-impl Disc {
-    /// The box around all places that it can get to in the step.
-    #[inline(always)]
-    pub(super) fn aabb(&self) -> Aabb {
-        Aabb::around(self.at, self.swept_radius)
-    }
-
-    /// An image of it.
-    pub(super) fn moved(self, by: Vec2) -> Self {
-        Self { at: self.at + by, ..self }
-    }
-
-    /// Whether the two may touch during the step.
-    #[inline(always)]
-    pub(super) fn is_near(&self, other: &Self) -> bool {
-        self.is_within(other, 0.0)
-    }
-
-    /// The same if both together move by `slack` less than the largest displacements.
-    #[inline(always)]
-    pub(super) fn is_within(&self, other: &Self, slack: f32) -> bool {
-        let distance = self.swept_radius + other.swept_radius - slack;
-        (other.at - self.at).length_squared() < distance * distance
+        let (origin_x, origin_y) = (&self.origin_x[lanes.clone()], &self.origin_y[lanes.clone()]);
+        let (x, y) = (&self.x[lanes.clone()], &self.y[lanes.clone()]);
+        let (radius, groups) = (&self.radius[lanes.clone()], &self.groups[lanes]);
+        // Both first, and then a choice: one or the other would be a branch in each lane.
+        let swept = each::<LANES>(|l| radius[l] + displacement);
+        let mut memberships = [0; LANES];
+        memberships.iter_mut().zip(groups).for_each(|(memberships, groups)| *memberships = groups.memberships);
+        let swept = each(|l| if memberships[l] != 0 { swept[l] } else { f32::NAN });
+        [each(|l| origin_x[l] + x[l]), each(|l| origin_y[l] + y[l]), swept]
     }
 }
 

@@ -1,7 +1,7 @@
 //! Neighbouring links of a ring as the search for discs sees them, eight side by side.
 
 use super::aabb::Aabb;
-use super::disc_grid::Disc;
+use super::disc::Disc;
 use crate::instruction_set;
 use crate::particle::LANES;
 use glam::{Vec2, Vec4};

@@ -3,6 +3,7 @@
 mod aabb;
 mod bodies;
 pub(crate) mod broad_phase;
+mod disc;
 mod disc_grid;
 pub(crate) mod exemptions;
 mod images;

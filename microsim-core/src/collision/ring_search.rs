@@ -3,7 +3,8 @@
 use super::aabb::Aabb;
 use super::bodies::Bodies;
 use super::combine;
-use super::disc_grid::{Disc, DiscGrid};
+use super::disc::Disc;
+use super::disc_grid::DiscGrid;
 use super::exemptions::Exemptions;
 use super::link_group::{Lanes, LinkGroup, Node, finite};
 use super::ring::{Containment, FoundLink, Ring, RingContact, may_touch, side_of};
@@ -153,7 +154,7 @@ impl RingStrip {
         let is_near = |disc: &Disc| disc.aabb().overlaps(aabb) && ring_of[disc.index as usize] != place;
         discs.clear();
         for body in near.bodies.in_box(low, high) {
-            discs.extend(near.bodies.discs_of(body, near.particles).filter(is_near));
+            discs.extend(near.bodies.discs_of(body).filter(is_near));
         }
         for grid in near.disc_grids {
             // All at once: where they lie does not have to be waited for then.

@@ -73,9 +73,9 @@ impl SpeculativeMargins {
 #[inline(always)]
 pub(super) fn margins_of(block: &BlockRange, p: &Particles, limits: DisplacementLimits) -> [f32; LANES] {
     let mut fastest = [0.0; LANES];
-    for slot in 0..block.slots {
-        let lanes = block.entry(slot, 0)..block.entry(slot + 1, 0);
-        let speeds = p.vx[lanes.clone()].iter().zip(&p.vy[lanes]).map(|(vx, vy)| vx * vx + vy * vy);
+    let own = block.base..block.end();
+    for (vx, vy) in p.vx[own.clone()].chunks_exact(LANES).zip(p.vy[own].chunks_exact(LANES)) {
+        let speeds = vx.iter().zip(vy).map(|(vx, vy)| vx * vx + vy * vy);
         for (fastest, squared) in fastest.iter_mut().zip(speeds) {
             *fastest = if squared > *fastest { squared } else { *fastest };
         }

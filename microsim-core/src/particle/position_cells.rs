@@ -29,6 +29,25 @@ impl Particles {
 }
 
 impl PositionCells<'_> {
+    /// The same with columns of lengths that the compiler sees to be equal: a particle that is found in one column is not
+    /// checked again in the others.
+    #[inline(always)]
+    pub(crate) fn even(self) -> Self {
+        let count = self.x.len();
+        Self {
+            origin_x: &self.origin_x[..count],
+            origin_y: &self.origin_y[..count],
+            x: &self.x[..count],
+            y: &self.y[..count],
+            prev_x: &self.prev_x[..count],
+            prev_y: &self.prev_y[..count],
+            vx: &self.vx[..count],
+            vy: &self.vy[..count],
+            inv_mass: &self.inv_mass[..count],
+            radius: &self.radius[..count],
+        }
+    }
+
     /// Origin of particle `i`.
     #[inline(always)]
     pub(crate) fn origin(&self, i: usize) -> Vec2 {

@@ -37,7 +37,7 @@ pub(crate) fn project(
         dispatch.run(
             #[inline(always)]
             || {
-                let (mut wrong, mut nodes) = (0, RingNodes::default());
+                let (mut wrong, mut nodes, p) = (0, RingNodes::default(), p.even());
                 for of_ring in list.contacts.chunk_by_mut(|a, b| a.ring == b.ring) {
                     nodes.read(of.of(of_ring[0].ring), p);
                     for contact in of_ring {
@@ -141,7 +141,7 @@ pub(crate) fn keep_sides(rings: &mut RingContacts, p: &mut Particles, dispatch: 
         dispatch.run(
             #[inline(always)]
             || {
-                let (mut wrong, mut nodes) = (0, RingNodes::default());
+                let (mut wrong, mut nodes, p) = (0, RingNodes::default(), p.even());
                 let mut read = usize::MAX;
                 for contact in list.contacts.iter().filter(|contact| contact.is_close) {
                     if contact.ring != read {

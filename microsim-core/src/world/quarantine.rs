@@ -36,8 +36,8 @@ impl World {
                         && are_near(&p.origin_y[at.clone()], &p.y[at.clone()], [low.y, high.y])
                         && [&p.vx, &p.vy, &p.prev_x, &p.prev_y]
                             .iter()
-                            .all(|column| are_within(&column[at.clone()], -f32::MAX))
-                        && [&p.inv_mass, &p.radius].iter().all(|column| are_within(&column[at.clone()], 0.0))
+                            .all(|column| are_finite(&column[at.clone()], ANY_SIGN))
+                        && [&p.inv_mass, &p.radius].iter().all(|column| are_finite(&column[at.clone()], POSITIVE))
                 },
             )
         };
@@ -99,10 +99,15 @@ fn are_near(origins: &[f32], offsets: &[f32], [low, high]: [f32; 2]) -> bool {
     places.fold(true, |all, at| all & (at > low) & (at < high))
 }
 
-/// Whether all numbers of a column are finite and at least `least`.
+/// The bits of a number that are looked at: all, or all but the sign.
+const POSITIVE: u32 = u32::MAX;
+const ANY_SIGN: u32 = !(1 << 31);
+
+/// Whether all numbers of a column are finite, by these of their bits: as whole numbers, those of what is not are the largest,
+/// and those of what is negative are larger.
 #[inline(always)]
-fn are_within(column: &[f32], least: f32) -> bool {
-    column.iter().fold(true, |all, &value| all & (value >= least) & (value <= f32::MAX))
+fn are_finite(column: &[f32], bits: u32) -> bool {
+    column.iter().fold(0, |most, value| most.max(value.to_bits() & bits)) <= f32::MAX.to_bits()
 }
 
 /// Whether a particle is finite and between two corners.

@@ -4,11 +4,11 @@
 use super::{Bodies, BodyProxy, PairFilter};
 use crate::collision::Contact;
 use crate::collision::aabb::Aabb;
-use crate::collision::disc_grid::{Disc, DiscGrid};
+use crate::collision::disc::Disc;
+use crate::collision::disc_grid::DiscGrid;
 use crate::collision::images::Images;
 use crate::collision::speculative_margin::SpeculativeMargins;
 use crate::geometry::period::leads_on;
-use crate::particle::Particles;
 use crate::particle::sleep::Sleep;
 use glam::Vec2;
 
@@ -64,14 +64,13 @@ impl Bodies {
         &self,
         images: &Images,
         grid: &DiscGrid,
-        particles: &Particles,
         mut visit: impl FnMut(&Disc, &Disc, Vec2),
     ) {
         for body in self.iter() {
             for shift in images.of(body.aabb) {
                 let image = body.aabb.moved(shift);
                 for other in grid.in_box(image.low(), image.high()).filter(|other| other.aabb().overlaps(image)) {
-                    let near = self.discs_of(body, particles).map(|disc| disc.moved(shift));
+                    let near = self.discs_of(body).map(|disc| disc.moved(shift));
                     near.filter(|disc| disc.is_near(other)).for_each(|disc| visit(&disc, other, shift));
                 }
             }
@@ -98,8 +97,8 @@ impl Bodies {
         let Some(mobility) = filter.mobility(body, other) else { return };
         let image = body.aabb.moved(shift).shrunk(0.0).shrunk(slack);
         let mut near = Vec::new();
-        self.for_each_disc_in(other, image, filter.particles, |disc| near.push(*disc));
-        let of_image = self.discs_of(body, filter.particles).map(|disc| disc.moved(shift));
+        self.discs_in(other, image).for_each(|disc| near.push(disc));
+        let of_image = self.discs_of(body).map(|disc| disc.moved(shift));
         for disc in of_image.filter(|_| !near.is_empty()) {
             for other in near.iter().filter(|other| disc.is_within(other, slack) && wanted(&disc, other)) {
                 let contact = filter.contact(&disc, other, mobility);

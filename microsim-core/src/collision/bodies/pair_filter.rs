@@ -1,7 +1,7 @@
 //! Which pairs of bodies, and of their discs, collide.
 
 use super::BodyProxy;
-use crate::collision::disc_grid::Disc;
+use crate::collision::disc::Disc;
 use crate::collision::exemptions::Exemptions;
 use crate::collision::{Contact, Mobility};
 use crate::particle::Particles;

@@ -18,8 +18,7 @@ fn sleepers_have_the_boxes_and_discs_that_they_have_awake() {
         let (mut bodies, mut margins) = (Bodies::default(), SpeculativeMargins::default());
         bodies.collect(&[block], &p, sleep, limits, &mut margins, Dispatch::default());
         bodies.sort(Vec2::splat(30.0));
-        bodies.make_discs(&[block], &p, sleep);
-        let discs = |body| bodies.discs_of(body, &p).collect::<Vec<_>>();
+        let discs = |body| bodies.discs_of(body).collect::<Vec<_>>();
         bodies.iter().map(|body| (body.owner, body.aabb, discs(body))).collect::<Vec<_>>()
     };
     let mut sleep = Sleep::default();

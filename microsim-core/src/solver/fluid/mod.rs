@@ -213,7 +213,7 @@ impl Workspace {
         let positions = unsafe { DisjointPositions::new(particles.position_cells()) };
         type Portion<'a> = (((&'a [Fluid], &'a [f32]), &'a mut [Sorted]), &'a mut Scratch);
         parallel::for_each(portions, |(((fluids, scales), sorted), scratch): Portion<'_>| {
-            let p = positions.cells();
+            let p = positions.cells().even();
             let place = |i| Place { origin: p.origin(i), offset: p.offset(i), moved: p.moved(i) };
             for ((fluid, &scale), sorted) in fluids.iter().zip(scales).zip(sorted) {
                 let support_radius = fluid.support_radius(scale);

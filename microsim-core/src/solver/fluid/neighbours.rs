@@ -15,7 +15,7 @@ use crate::geometry::period::Period;
 use crate::instruction_set::each;
 use crate::particle::{Particles, PositionCells};
 use crate::solver::lanes::LANES;
-use glam::Vec2;
+use glam::{Vec2, Vec4};
 use std::ops::Range;
 
 /// Where a particle without a finite position is put: nowhere near the others.
@@ -284,14 +284,24 @@ fn neighbour(Place { origin, offset, moved }: Place, low: Vec2, inverse: f32) ->
 
 /// Particles in the very same place would never come apart: gives them different ones.
 fn separate_coincident(neighbours: &mut [Neighbour]) {
-    let is_same = |a: &Neighbour, b: &Neighbour| a.x == b.x && a.y == b.y;
-    for k in 1..neighbours.len() {
-        // Those of a cell lie side by side.
-        let (before, here) = neighbours.split_at_mut(k);
-        let same = before.iter().rev().take(4).filter(|other| is_same(other, &here[0])).count();
-        if same > 0 {
-            here[0].x += same as f32 * 1e-3;
+    // Those of a cell lie side by side: the last four, of which hardly ever one has the same coordinate.
+    let mut last = Vec4::NAN;
+    for k in 0..neighbours.len() {
+        if last.cmpeq(Vec4::splat(neighbours[k].x)).any() {
+            separate_from_last(neighbours, k);
         }
+        last = Vec4::new(neighbours[k].x, last.x, last.y, last.z);
+    }
+}
+
+/// The same for one of them, and the last four before it.
+#[cold]
+fn separate_from_last(neighbours: &mut [Neighbour], k: usize) {
+    let (before, here) = neighbours.split_at_mut(k);
+    let is_same = |other: &&Neighbour| other.x == here[0].x && other.y == here[0].y;
+    let same = before.iter().rev().take(4).filter(is_same).count();
+    if same > 0 {
+        here[0].x += same as f32 * 1e-3;
     }
 }
 
@@ -318,6 +328,21 @@ mod tests {
                     assert!(near.copied().all(|other| seen.contains(&other)));
                 }
             }
+        }
+    }
+
+    #[test]
+    fn particles_in_the_same_place_come_apart_and_no_others_move() {
+        // The last but two is where the fourth before it is, the last where the fifth before it is.
+        let first = [[0.5, 0.1], [0.5, 0.7], [0.5, 0.1], [0.2, 0.1], [0.5, 0.7], [0.2, 0.1], [0.3, 0.3], [0.4, 0.3]];
+        let places = [&first[..], &[[0.6, 0.3], [0.7, 0.3], [0.3, 0.3], [0.8, 0.3], [0.4, 0.3]]].concat();
+        let neighbour = |&[x, y]: &[f32; 2]| Neighbour { x, y, ..Neighbour::default() };
+        let mut neighbours: Vec<_> = places.iter().map(neighbour).collect();
+        separate_coincident(&mut neighbours);
+        let moved = neighbours.iter().zip(places).map(|(now, [x, y])| (now.x - x, now.y - y));
+        let expected = [0.0, 0.0, 1e-3, 0.0, 1e-3, 1e-3, 0.0, 0.0, 0.0, 0.0, 1e-3, 0.0, 0.0].map(|by: f32| (by, 0.0));
+        for ((moved, expected), k) in moved.zip(expected).zip(0..) {
+            assert!((moved.0 - expected.0).abs() < 1e-6 && moved.1 == expected.1, "{k}: {moved:?}");
         }
     }
 }
