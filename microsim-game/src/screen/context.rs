@@ -25,6 +25,7 @@ use crate::store::files::PlayerFolder;
 use crate::store::found::FoundEntries;
 use crate::store::scores::Scores;
 use crate::store::settings::{self as kept, Settings};
+use crate::store::toml_value::from_toml;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::Pace;
@@ -57,7 +58,7 @@ pub struct Asked {
 
 /// Chooses the language of what is read before the settings are there.
 pub(crate) fn choose_first_language(asked: &Asked, store: &PlayerFolder, system: &'static Language) {
-    let kept = store.read(kept::FILE).and_then(|bytes| toml::from_slice::<Settings>(&bytes).ok());
+    let kept = store.read(kept::FILE).and_then(|bytes| from_toml::<Settings>(std::str::from_utf8(&bytes).ok()?));
     let kept = kept.and_then(|settings| Language::named(&settings.language));
     show_language(asked.language.or(kept).unwrap_or(system));
 }

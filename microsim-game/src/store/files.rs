@@ -1,5 +1,6 @@
 //! What is kept by name, as text that people can read. Damaged values are put aside, never overwritten.
 
+use super::toml_value::from_toml;
 use crate::platform::Storage;
 use crate::words::{self, Key};
 use serde::Serialize;
@@ -72,7 +73,7 @@ impl PlayerFolder {
 }
 
 fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
-    toml::from_str(std::str::from_utf8(bytes).ok()?).ok()
+    from_toml(std::str::from_utf8(bytes).ok()?)
 }
 
 /// Gives a value a name that none has yet, so that it is not overwritten. Returns where it is then.

@@ -7,3 +7,4 @@ pub mod files;
 pub mod found;
 pub mod scores;
 pub mod settings;
+pub mod toml_value;
