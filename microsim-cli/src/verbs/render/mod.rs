@@ -61,7 +61,7 @@ pub(crate) struct RenderArgs {
     /// Contrast method; several with commas, or all
     #[arg(long, value_name = "MODE", default_value = "phase-contrast")]
     pub optics: OpticsList,
-    /// Film with its grain and flicker, a digital camera, or a colour camera that interpolates colours and stores with loss
+    /// Film with grain and flicker, a digital camera, or a photo as stored
     #[arg(long, value_enum, default_value_t = FilmStock::Cine)]
     pub film: FilmStock,
     /// Width and height, pixels
