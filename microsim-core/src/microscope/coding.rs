@@ -18,7 +18,7 @@ const COSINES: [f32; 9] =
 /// Brightness, and what blue and red have beyond it.
 type Planes = [Vec<f32>; 3];
 
-/// Codes rows of red, green and blue, of a picture that begins with them or a multiple of [`BLOCK`] before them, and decodes
+/// Codes rows of red, green and blue, of a picture that begins with them or a multiple of 8 rows before them, and decodes
 /// them. `quality` is 1 to 100, where 50 takes the tables as they are (as the library of the Independent JPEG Group counts).
 /// Colour has half as many columns as the picture. Blocks that the picture does not fill repeat its last column and row.
 pub fn code(bytes: &mut [u8], columns: usize, quality: u8) {
