@@ -32,8 +32,12 @@ impl Lunge {
         }
         let view = world.view().organism(cell).ok_or(Key::HudLungeSmall)?;
         let (speed, price) = (view.speed(), super::food_chain::bites::cytoplasm(view) / PRICE);
-        let paid = world.shrink(cell, price.max(1)).and_then(|()| world.set_speed(cell, FACTOR * speed));
-        paid.map_err(|_| Key::HudLungeSmall)?;
+        world.set_speed(cell, FACTOR * speed).map_err(|_| Key::HudLungeSmall)?;
+        if world.shrink(cell, price.max(1)).is_err() {
+            // It was its own a moment ago.
+            let _ = world.set_speed(cell, speed);
+            return Err(Key::HudLungeSmall);
+        }
         *self = Self { cell: Some(cell), left: TIME + RECOVERY };
         Ok(())
     }
@@ -90,11 +94,15 @@ mod tests {
 
     /// A room with nothing but the player's cell, of this radius.
     fn room(radius: f32) -> Round {
-        round(&format!(
+        round(&text_of(radius, 11.0))
+    }
+
+    fn text_of(radius: f32, speed: f32) -> String {
+        format!(
             "schema = 1\nname = \"room\"\n[world]\nsize = [200.0, 60.0]\ndamping = 1.5\nmax_speed = 24.0\n\
-             [amoeboid_cell.cell]\nradii = [{radius}, {radius}]\nspeed = 11.0\n\
+             [amoeboid_cell.cell]\nradii = [{radius}, {radius}]\nspeed = {speed:?}\n\
              [[spawn]]\nof = \"cell\"\nplayer = true\nat = [30.0, 30.0]\n[game]\ntime = 60.0\n"
-        ))
+        )
     }
 
     fn cell(round: &Round) -> OrganismView<'_> {
@@ -150,7 +158,8 @@ mod tests {
         let mut divided = round(food_chain::TEXT);
         divided.divide(0);
         divided.step(Intent::REST);
-        for (mut round, what) in [(room(4.0), "small"), (divided, "divides")] {
+        let fastest = round(&text_of(7.0, 600.0));
+        for (mut round, what) in [(room(4.0), "small"), (divided, "divides"), (fastest, "as fast as cells can be")] {
             let before = round.world().digest();
             assert_eq!((round.lunge(0), round.world().digest()), (Err(Key::HudLungeSmall), before), "{what}");
         }
