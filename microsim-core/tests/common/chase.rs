@@ -3,14 +3,20 @@
 use super::{happens, tell, toward};
 use microsim_core::glam::Vec2;
 use microsim_core::{
-    AgarSpec, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId, OrganismSpec, PhagocytosisParams,
-    RigidCellSpec, World,
+    AgarSpec, AmoeboidCellSpec, DivisionParams, Event, IngestionWay, Inputs, Intent, MealPhase, OrganismId,
+    OrganismSpec, PhagocytosisParams, RigidCellSpec, World,
 };
 
 /// A world, a cell in it and its prey.
 pub(crate) type Scene = (World, OrganismId, OrganismId);
 
 pub(crate) const WAYS: [IngestionWay; 2] = [IngestionWay::Gate, IngestionWay::Cup];
+
+/// A cell that divides early.
+pub(crate) fn cell_of(radius: f32, phagocytosis: PhagocytosisParams) -> AmoeboidCellSpec {
+    let division = DivisionParams { least_particles: 12, least_nodes: 8, ..DivisionParams::default() };
+    AmoeboidCellSpec { radii: Vec2::splat(radius), phagocytosis, division, ..AmoeboidCellSpec::default() }
+}
 
 /// The default parameters but for the way in.
 pub(crate) fn by(way: IngestionWay) -> PhagocytosisParams {

@@ -9,6 +9,13 @@ use microsim_core::{
 pub(crate) mod chase;
 pub(crate) mod lobes;
 
+/// Takes a step and checks all that holds between steps.
+pub(crate) fn step_soundly(world: &mut World, inputs: &Inputs, what: &str) {
+    world.step(inputs);
+    assert_eq!(world.validate(), Ok(()), "{what}");
+    assert_sound(world, what);
+}
+
 /// A world of the default size with one organism.
 pub(crate) fn room_with(spec: impl Into<OrganismSpec>, x: f32, y: f32) -> (World, OrganismId) {
     let mut world = World::new(WorldConfig::default()).unwrap();
