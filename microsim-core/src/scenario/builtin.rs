@@ -16,7 +16,7 @@ pub struct Builtin {
     pub name: &'static str,
     /// What it shows, in one line.
     pub summary: &'static str,
-    /// The file; without comments where the feature `schema` is off.
+    /// The file; for WebAssembly without comments where the feature `schema` is off.
     pub text: &'static str,
 }
 
@@ -114,13 +114,13 @@ pub fn builtin(name: &str) -> Option<&'static Builtin> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bare_text::bare_string;
+    use crate::bare_text::bare;
     use crate::scenario::Scenario;
 
     #[test]
     fn without_comments_the_same_worlds_are_built() {
         for found in builtins() {
-            let bare = bare_string(found.text, "#");
+            let bare = bare::string(found.text, "#");
             let digest = |text| Scenario::parse(text, &[]).unwrap().build().unwrap().world.digest();
             assert_eq!(digest(&bare), digest(found.text), "{}", found.name);
             assert!(!bare.contains("# ") && !bare.contains("\n\n"), "{}", found.name);
