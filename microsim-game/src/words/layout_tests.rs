@@ -34,7 +34,13 @@ fn settings_and_keys_fit_their_menu_in_a_small_window() {
             (Key::SettingsPace, vec!["100 %"]),
             (Key::SettingsSound, vec!["100 %"]),
         ];
-        let switches = [Key::SettingsMotion, Key::SettingsDigestion, Key::SettingsCrawl, Key::SettingsArrows];
+        let switches = [
+            Key::SettingsMotion,
+            Key::SettingsDigestion,
+            Key::SettingsCrawl,
+            Key::SettingsCaptions,
+            Key::SettingsArrows,
+        ];
         items
             .extend(switches.into_iter().chain([Key::SettingsFullScreen, Key::KeysLetters]).map(|key| (key, switch())));
         items.extend(Action::ALL.map(|action| (action.label(), vec![text(Key::KeysPress)])));

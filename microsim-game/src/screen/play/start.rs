@@ -15,6 +15,7 @@ use crate::input::Action;
 use crate::platform;
 use crate::rules::food_chain::NAME;
 use crate::rules::ghost::Ghost;
+use crate::rules::threat::Alarm;
 use crate::rules::round::Round;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides;
@@ -100,6 +101,7 @@ impl Play {
             pulses: Pulses::default(),
             done: DoneNote::default(),
             fullest: Vec::new(),
+            alarm: Alarm::default(),
             heard: Vec::new(),
             follow,
             own,
