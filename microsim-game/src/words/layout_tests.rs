@@ -66,7 +66,9 @@ fn menus_and_headings_fit_a_small_window() {
                     title
                 }
                 "quit" | "pause" | "back" | "settings" => middle,
-                _ if ["end-again", "end-watch", "slide-end-next", "chain-today", "chain-other"].contains(&name) => {
+                _ if ["end-again", "end-watch", "slide-end-next", "chain-today", "chain-other", "chain-same"]
+                    .contains(&name) =>
+                {
                     middle
                 }
                 _ => continue,
