@@ -171,7 +171,7 @@ impl App {
             self.press(input);
         }
         self.screens.update(input, &mut self.context);
-        self.context.speaker.pass(self.context.pace.elapsed);
+        self.context.pass_sound();
         if self.screens.is_empty() {
             return false;
         }

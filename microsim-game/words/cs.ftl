@@ -45,6 +45,7 @@ settings-digestion = Trávit podržením
 settings-crawl = Lézt kliknutím
 settings-pace = Rychlost kol
 settings-sound = Zvuk
+settings-captions = Titulky
 settings-arrows = Původní šipky
 settings-full-screen = Celá obrazovka
 settings-keys = Klávesy
@@ -54,6 +55,7 @@ settings-motion-about = Zapnuto: nic se nehýbe ani nebliká jen pro ozdobu.
 settings-digestion-about = Zapnuto: co je uvnitř, se tráví jen při držení klávesy.
 settings-crawl-about = Zapnuto: kliknutím začneš lézt, dalším přestaneš.
 settings-pace-about = Jak rychle v kole běží čas: pomaleji je to snazší.
+settings-captions-about = Zapnuto: co je slyšet, je vpravo i napsáno.
 settings-arrows-about = Zapnuto: zelená šipka je i tam, kde uvnitř není místo.
 settings-unknown-language = V nastavení je neznámý jazyk: { $language }.
 effort-automatic = automatická
@@ -134,6 +136,19 @@ lesson-lunge = { $what }: na chvíli dvakrát rychlejší. Stojí to kousek těl
 hint-lunge-key = { $key } nebo pravé tlačítko myši
 lesson-optics = { $key } mění optiku: stejné buňky v každé vypadají jinak.
 
+## Titulky k tomu, co je slyšet
+
+caption-engulf = potrava jde dovnitř
+caption-ingest = potrava je uvnitř
+caption-release = potrava je zase venku
+caption-digest = potrava je strávená
+caption-lunge = výpad
+caption-danger = blíží se nebezpečí
+caption-divide = buňka se dělí
+caption-fuse = dvě buňky splynuly
+caption-second = hodiny tikají
+caption-end = konec
+
 ## Konce
 
 end-again = Hrát znovu
@@ -193,7 +208,7 @@ chain-about = Jez, nebo zahyneš hladem. Obrům uteč mezerami. Jak rosteš, vol
 chain-best = { $about } Rekord: { $time } s.
 chain-today = Dnešní voda
 chain-other = Jiná voda
-chain-same = Stejná voda
+chain-same = Znovu: stejná voda
 chain-today-best = Tuto vodu mají dnes všichni. Žil jsi v ní { $time } s. { $goal }
 chain-today-new = Tuto vodu mají dnes všichni. { $goal }
 chain-water = Voda { $seed }: stejná pro všechny, kdo hrají toto číslo.

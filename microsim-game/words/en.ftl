@@ -43,6 +43,7 @@ settings-digestion = Hold to digest
 settings-crawl = Click to crawl
 settings-pace = Speed of rounds
 settings-sound = Sound
+settings-captions = Captions
 settings-arrows = Classic arrows
 settings-full-screen = Full screen
 settings-keys = Keys
@@ -52,6 +53,7 @@ settings-motion-about = On: nothing moves or blinks for decoration.
 settings-digestion-about = On: you digest only while you hold a key.
 settings-crawl-about = On: one click starts your crawl, the next one stops it.
 settings-pace-about = How fast time passes in a round: slower is easier.
+settings-captions-about = On: what you hear is written at the right, too.
 settings-arrows-about = On: the green arrow is shown even when you are full.
 settings-unknown-language = The settings have an unknown language, { $language }.
 effort-automatic = automatic
@@ -132,6 +134,19 @@ lesson-lunge = { $what }: twice as fast for a moment. It costs a little of your 
 hint-lunge-key = { $key } or the right mouse button
 lesson-optics = { $key } changes the optics: the same cells look different in each.
 
+## Captions of what is heard
+
+caption-engulf = food goes in
+caption-ingest = food is inside
+caption-release = food is lost
+caption-digest = food is digested
+caption-lunge = a lunge
+caption-danger = danger is near
+caption-divide = a cell divides
+caption-fuse = two cells become one
+caption-second = the clock ticks
+caption-end = the end
+
 ## Ends
 
 end-again = Play again
@@ -187,7 +202,7 @@ chain-about = Eat or starve. Flee from giants through gaps. As you grow, you cha
 chain-best = { $about } Best: { $time } s.
 chain-today = Today's water
 chain-other = Other water
-chain-same = Same water
+chain-same = Again: same water
 chain-today-best = Everybody has this water today. You lived { $time } s in it. { $goal }
 chain-today-new = Everybody has this water today. { $goal }
 chain-water = Water { $seed }: the same for all who play this number.

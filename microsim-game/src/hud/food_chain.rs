@@ -41,10 +41,13 @@ pub fn draw_others(pen: &mut Pen, style: &Style<'_>, view: View<'_>, [threats, v
     }
 }
 
-/// Writes a sign of equality over each amoeba that can neither bite nor be bitten.
-pub fn draw_equals(pen: &mut Pen, style: &Style<'_>, equals: &[Other]) {
+/// Draws a thin rim and a sign of equality over each amoeba that can neither bite nor be bitten.
+pub fn draw_equals(pen: &mut Pen, style: &Style<'_>, view: View<'_>, equals: &[Other]) {
     let unit = pen.line(TextSize::Body);
     for equal in equals {
+        if let Some(cell) = view.organism(equal.cell) {
+            draw_rim(pen, style, cell, fade(HALO, 0.7), 0.07);
+        }
         let (at, radius) = place(style, equal);
         if is_seen(pen, at, radius) {
             let top = Vec2::new(at.x, (at.y - radius - 0.7 * unit).max(2.6 * unit));
@@ -67,8 +70,8 @@ fn draw_warning(pen: &mut Pen, at: Vec2, size: f32) {
         let corners = [Vec2::new(0.0, -1.0), Vec2::new(0.95, 0.75), Vec2::new(-0.95, 0.75)];
         pen.canvas().corner(corners.map(|corner| at + size * corner), colour);
     }
-    pen.canvas().segment(at + Vec2::new(0.0, -0.45 * size), at + Vec2::new(0.0, 0.2 * size), 0.26 * size, INK);
-    pen.canvas().circle(at + Vec2::new(0.0, 0.5 * size), 0.15 * size, 0.3 * size, INK);
+    pen.canvas().segment(at + Vec2::new(0.0, -0.45 * size), at + Vec2::new(0.0, 0.15 * size), 0.26 * size, INK);
+    pen.canvas().circle(at + Vec2::new(0.0, 0.48 * size), 0.07 * size, 0.14 * size, INK);
 }
 
 /// Draws each change on the body of the player's cell: a quick body has bristles, a sticky front dots along it, a second
@@ -239,12 +242,13 @@ mod tests {
     }
 
     #[test]
-    fn an_amoeba_of_the_same_size_has_a_sign_where_it_is_seen() {
+    fn an_amoeba_of_the_same_size_has_a_thin_rim_and_a_sign_where_it_is_seen() {
         let mut world = World::new(WorldConfig::default()).unwrap();
         let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(30.0, 45.0)).unwrap();
         let other = |x: f32| Other { cell, at: Vec2::new(x, 45.0), half_extent: 8.0, distance: 20.0 };
-        let corners = |x: f32| drawn(|pen, style| draw_equals(pen, style, &[other(x)])).canvas().corners().count();
-        assert!(corners(80.0) > 0 && corners(400.0) == 0);
+        let drawn_of = |x: f32| drawn(|pen, style| draw_equals(pen, style, world.view(), &[other(x)]));
+        assert!(drawn_of(80.0).canvas().corners().count() > drawn_of(400.0).canvas().corners().count(), "a sign");
+        assert!(drawn_of(80.0).canvas().count(fade(HALO, 0.7)) > 100, "a rim");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What the game draws above the scene: score, time, and marks at what matters (thesis, 3.3.2). No mark tells anything by its
 //! colour alone.
 
+pub mod captions;
 pub mod food_chain;
 pub mod marks;
 pub mod own;

@@ -6,6 +6,8 @@ use microsim_core::{OrganismId, World};
 
 /// How many times as fast it crawls: a power of two, so that its own speed comes back to the bit. The world's speed limit stays.
 const FACTOR: f32 = 2.0;
+/// From which factor on a cell that is faster after a step lunges: changes of the body make it less fast.
+const LEAP: f32 = 1.5;
 /// How long it takes, and until the next one can begin after it, s.
 const TIME: f32 = 0.5;
 const RECOVERY: f32 = 3.0;
@@ -51,6 +53,18 @@ impl Lunge {
         {
             // The range of speeds has all that was there before.
             let _ = world.set_speed(cell, speed / FACTOR);
+        }
+    }
+
+    /// Looks on after a step of a replay, which does what a lunge does by itself: the cell was this fast before.
+    pub fn after_replayed_step(&mut self, world: &World, cell: OrganismId, before: f32) {
+        let dt = world.config().dt;
+        self.left = (self.left - dt).max(0.0);
+        if self.left < RECOVERY {
+            self.cell = None;
+        }
+        if world.view().organism(cell).is_some_and(|cell| cell.speed() > LEAP * before) {
+            *self = Self { cell: Some(cell), left: TIME + RECOVERY - dt };
         }
     }
 
@@ -192,20 +206,28 @@ mod tests {
     fn a_bot_that_lunges_loses_nothing_through_membranes_and_plays_again_to_the_bit() {
         for text in [builtin("game").unwrap().text, food_chain::TEXT] {
             let mut round = round(text);
-            let (mut bot, mut lunges) = (Bot::new(Policy::Greedy, 1), 0);
+            let seen = |round: &Round| {
+                let lunge = round.lunge_of(0);
+                (lunge.is_on(), lunge.recovered(), round.heard().any(|cue| cue == Cue::Lunge))
+            };
+            let (mut bot, mut lunges, mut looks) = (Bot::new(Policy::Greedy, 1), 0, Vec::new());
             while round.world().time() < 25.0 && !round.is_over() {
                 lunges += u32::from(round.lunge(0).is_ok());
                 let intent = bot.intent(round.world(), round.player()).digesting(true);
                 round.step(intent);
+                looks.push(seen(&round));
                 let census = round.world().census();
                 assert_eq!(census.leaks + census.improper_absorptions + census.quarantined, 0, "{census:?}");
             }
             assert!(lunges > 4, "{lunges}");
             let mut again = Round::again(&Replay::read(&round.record().unwrap()).unwrap()).unwrap();
             assert!(!again.has_lunges());
-            while !again.is_over() {
+            for (step, look) in looks.into_iter().enumerate() {
                 again.step(Intent::REST);
+                assert_eq!(seen(&again), look, "rings and streaks of step {step}");
             }
+            again.step(Intent::REST);
+            assert!(again.is_over());
             assert_eq!((again.mismatch(), again.world().digest()), (None, round.world().digest()));
         }
     }

@@ -12,7 +12,7 @@ use crate::sound::Cue;
 use crate::words::Key;
 use microsim_core::replay::{Mismatch, Player, Recorder, Replay};
 use microsim_core::scenario::Scenario;
-use microsim_core::{Event, Inputs, Intent, Kind, MealPhase, OrganismId, World};
+use microsim_core::{Event, Inputs, Intent, Kind, MealPhase, OrganismId, OrganismView, World};
 use std::num::NonZeroU32;
 
 /// Steps between two digests of a recorded round.
@@ -119,6 +119,8 @@ impl Round {
             return;
         }
         let cells: Vec<OrganismId> = self.players().collect();
+        let speed = |cell: &OrganismId| self.world().view().organism(*cell).map(OrganismView::speed);
+        let speeds: Vec<Option<f32>> = cells.iter().map(speed).collect();
         match &mut self.course {
             Course::Live { run, recorder, record } => {
                 if let Some(chain) = &mut self.chain {
@@ -140,8 +142,11 @@ impl Round {
                 }
             },
         }
-        let world = &self.course.run().world;
-        for (player, Seat { cell, referee, .. }) in self.seats.iter_mut().enumerate() {
+        let (world, is_replay) = (&self.course.run().world, self.is_replay());
+        for (player, Seat { cell, lunge, referee }) in self.seats.iter_mut().enumerate() {
+            if let Some(before) = speeds[player].filter(|_| is_replay) {
+                lunge.after_replayed_step(world, *cell, before);
+            }
             referee.after_step(world);
             if let Some(chain) = &mut self.chain {
                 *cell = chain.after_step(world, player, *cell);

@@ -3,6 +3,9 @@
 use microsim_core::glam::Vec2;
 use microsim_core::{Event, IngestionWay, Inputs, Intent, OrganismId, OrganismView, View, World};
 
+/// Time without a threat after which the next one is an alarm, s.
+const QUIET: f32 = 3.0;
+
 /// Another amoeba, as the player's cell meets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Other {
@@ -23,6 +26,28 @@ impl Other {
         let ((low, high), at) = (other.bounds(), other.centroid());
         let (half_extent, distance) = (0.5 * (high - low).max_element(), (at - cell.centroid()).length());
         Self { cell: other.id(), at, half_extent, distance }
+    }
+}
+
+/// Tells when somebody who bites comes near.
+#[derive(Clone, Copy, Debug)]
+pub struct Alarm {
+    /// Time since nobody has been near, s.
+    quiet: f32,
+}
+
+impl Default for Alarm {
+    fn default() -> Self {
+        Self { quiet: QUIET }
+    }
+}
+
+impl Alarm {
+    /// Lets time pass, s, and says whether to be alarmed: when somebody is near now and nobody was for a while.
+    pub fn rings(&mut self, is_near: bool, elapsed: f32) -> bool {
+        let rings = is_near && self.quiet >= QUIET;
+        self.quiet = if is_near { 0.0 } else { self.quiet + elapsed };
+        rings
     }
 }
 
@@ -80,6 +105,16 @@ mod tests {
              [[spawn]]\nof = \"other\"\nat = [50.0, 30.0]\n"
         );
         Round::new(&Scenario::parse(&text, &[]).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn an_alarm_rings_once_for_somebody_who_comes_near_and_goes_to_and_fro() {
+        let mut alarm = Alarm::default();
+        let mut rings =
+            |is_near, time: f32| (0..(10.0 * time) as u32).map(|_| u32::from(alarm.rings(is_near, 0.1))).sum::<u32>();
+        assert_eq!(rings(false, 1.0), 0);
+        assert_eq!([true, false, true, false, true].map(|is_near| rings(is_near, 2.0)), [1, 0, 0, 0, 0]);
+        assert_eq!((rings(false, 4.0), rings(true, 1.0)), (0, 1));
     }
 
     #[test]

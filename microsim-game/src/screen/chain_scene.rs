@@ -109,7 +109,7 @@ pub(super) fn draw(
     };
     let [threats, victims, equals] = others(view, cell);
     food_chain::draw_others(pen, style, view, &[threats, victims]);
-    food_chain::draw_equals(pen, style, &equals);
+    food_chain::draw_equals(pen, style, view, &equals);
     let cells = round.players().filter_map(|cell| view.organism(cell));
     cells.for_each(|cell| food_chain::draw_changes(pen, style, cell));
     if is_played && chain.is_bitten(cell) {

@@ -4,6 +4,7 @@ use super::context::AppContext;
 use super::follow::Follow;
 use super::lobby::clock;
 use super::offer::{self, Taking};
+use super::parted::keep_parted;
 use super::steer::{Hands, draw_prey};
 use super::{MainScreen, Next, Screen, chain_scene, new_seed};
 use crate::draw::palette::PLAYERS;
@@ -13,9 +14,9 @@ use crate::network::contest::Match;
 use crate::platform;
 use crate::rules::food_chain::Deed;
 use crate::rules::food_chain::change::Change;
-use crate::rules::round::Round;
+use crate::rules::threat::Alarm;
 use crate::slides;
-use crate::store::files::PlayerFolder;
+use crate::sound::Cue;
 use crate::viewer::{Viewer, first_view};
 use crate::words::{self, Key};
 use microsim_core::scenario::Slide;
@@ -39,9 +40,6 @@ const RETRY_INTERVAL: f32 = 2.0;
 /// Share of a picture's time in which one who comes late takes frames of the past, and bounds of that time.
 const CATCH_UP_SHARE: f32 = 0.5;
 const CATCH_UP_TIME: RangeInclusive<Duration> = Duration::from_millis(20)..=Duration::from_millis(500);
-/// Files of a match that came apart.
-const RECORD: &str = "desync.replay";
-const WORLD: &str = "desync.snapshot";
 
 #[derive(Debug)]
 pub(super) struct Contest {
@@ -56,6 +54,7 @@ pub(super) struct Contest {
     /// What is written on the key that divides the cell.
     divide_key: String,
     gains: marks::Gains,
+    alarm: Alarm,
     /// Frames that were waited for others.
     waiting: u32,
     /// Until when Escape leaves, s.
@@ -81,6 +80,7 @@ impl Contest {
             taking: Taking::default(),
             divide_key: context.settings.keys.label(Action::Divide),
             gains: marks::Gains::default(),
+            alarm: Alarm::default(),
             waiting: 0,
             leaves_until: 0.0,
             shows_net: false,
@@ -137,8 +137,19 @@ impl Contest {
             gains.add(game.session().gains().iter().copied());
             game.session().round().world()
         });
+        if self.is_alarmed(pace.elapsed) {
+            heard.push(Cue::Danger);
+        }
         context.play(&heard);
         self.gains.pass(pace.elapsed);
+    }
+
+    /// Whether somebody who bites has come near the own cell.
+    fn is_alarmed(&mut self, elapsed: f32) -> bool {
+        let round = self.game.session().round();
+        let cell = living(&self.game).and_then(|own| round.players().nth(own));
+        let is_hunted = cell.is_some_and(|cell| chain_scene::is_hunted(round, round.world().view(), cell));
+        self.alarm.rings(is_hunted, elapsed)
     }
 
     /// What the match came to, if it has ended.
@@ -337,18 +348,6 @@ fn seen(game: &Match) -> Option<OrganismId> {
     chain_scene::seen(game.session().round(), living(game))
 }
 
-/// Keeps the round of a match that came apart, as it was at a step, and gives it to the player. Says so.
-fn keep_parted(round: &Round, step: u64, store: &PlayerFolder, hand_over: impl Fn(&str, &[u8]) -> bool) -> String {
-    let told = words::text_with(Key::MatchDiffers, &[("step", (&step.to_string()).into())]);
-    let (Some(record), Ok(world)) = (round.record(), round.world().to_snapshot()) else { return told };
-    let files = [(RECORD, record), (WORLD, world)];
-    let kept = files.iter().filter(|(name, bytes)| store.write(name, bytes).is_ok()).count();
-    let given = files.iter().filter(|(name, bytes)| hand_over(name, bytes)).count();
-    let key = if given == files.len() { Key::MatchGiven } else { Key::MatchKept };
-    let where_found = words::text_with(key, &[("record", RECORD.into()), ("world", WORLD.into())]);
-    if kept.max(given) == files.len() { format!("{told} {where_found}") } else { told }
-}
-
 /// A player, for people.
 fn player(own: usize) -> String {
     let colour = words::text(PLAYERS[own % PLAYERS.len()].0);
@@ -359,41 +358,4 @@ fn player(own: usize) -> String {
 fn player_advice(own: usize, slide: Option<&Slide>) -> String {
     let you = words::text_with(Key::MatchYouAre, &[("player", (&player(own)).into())]);
     slide.map_or(you.clone(), |slide| format!("{} {you}", slide.task))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rules::two_players;
-    use crate::store::files::tests::Folder;
-    use microsim_core::World;
-    use microsim_core::replay::{Player, Replay};
-    use microsim_core::scenario::Scenario;
-    use std::cell::RefCell;
-
-    #[test]
-    fn a_match_that_came_apart_is_kept_as_a_record_and_the_world_at_its_end() {
-        let (_folder, store) = Folder::new("parted");
-        let mut round = Round::new(&Scenario::parse(two_players::TEXT, &[]).unwrap()).unwrap();
-        (0..90).for_each(|_| round.step_all(&[Intent::REST, Intent::REST]));
-        let told = keep_parted(&round, 90, &store, |_, _| false);
-        assert!([RECORD, WORLD, "90", "settings"].iter().all(|said| told.contains(said)), "{told}");
-        let world = World::from_snapshot(&store.read(WORLD).unwrap()).unwrap();
-        let mut player = Player::new(&Replay::read(&store.read(RECORD).unwrap()).unwrap()).unwrap();
-        assert_eq!(player.by_ref().filter(|played| played.is_ok()).count(), 90);
-        assert_eq!(player.world().digest(), world.digest());
-    }
-
-    #[test]
-    fn where_what_is_kept_is_out_of_reach_the_files_are_given_to_the_player() {
-        let (_folder, store) = Folder::new("given");
-        let round = Round::new(&Scenario::parse(two_players::TEXT, &[]).unwrap()).unwrap();
-        let given = RefCell::new(Vec::new());
-        let told = keep_parted(&round, 90, &store, |name, bytes| {
-            given.borrow_mut().push((name.to_owned(), bytes.to_vec()));
-            true
-        });
-        let kept = [RECORD, WORLD].map(|name| (name.to_owned(), store.read(name).unwrap()));
-        assert!(*given.borrow() == kept && told.contains("downloads"), "{told}");
-    }
 }

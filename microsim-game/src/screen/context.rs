@@ -8,6 +8,7 @@ use crate::draw::SceneFrame;
 use crate::draw::palette::{HALO, INK, fade};
 use crate::game_choice::GameChoice;
 use crate::guide;
+use crate::hud::captions::Captions;
 use crate::network::room::Room;
 use crate::platform::{self, Speaker};
 use crate::rules::food_chain::change::Change;
@@ -150,6 +151,7 @@ pub struct AppContext {
     /// The language of the system.
     pub(crate) system_language: &'static Language,
     message: Option<(String, f32)>,
+    captions: Captions,
 }
 
 impl AppContext {
@@ -197,6 +199,7 @@ impl AppContext {
             asked: Asked::default(),
             system_language: &LANGUAGES[0],
             message: None,
+            captions: Captions::default(),
         };
         let other_language = context.settings.refuse_language();
         let refused = |code: String| words::text_with(Key::SettingsUnknownLanguage, &[("language", (&code).into())]);
@@ -251,12 +254,21 @@ impl AppContext {
         }
     }
 
-    /// Plays what was heard in this frame, unless frames are made for pictures.
+    /// Plays what was heard in this frame, unless frames are made for pictures, and writes it if the player wants that.
     pub fn play(&mut self, heard: &[Cue]) {
+        if self.settings.captions {
+            self.captions.add(heard);
+        }
         let loudness = self.settings.loudness();
         if loudness > 0.0 && !self.pace.is_exact {
             heard.iter().for_each(|&cue| self.speaker.play(cue, loudness));
         }
+    }
+
+    /// Lets the time of this frame pass for what is heard and for its captions.
+    pub(crate) fn pass_sound(&mut self) {
+        self.speaker.pass(self.pace.elapsed);
+        self.captions.pass(self.pace.elapsed);
     }
 
     /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.
@@ -371,8 +383,11 @@ impl AppContext {
         (!self.settings.reduced_motion).then_some(self.time)
     }
 
-    /// Draws the message, if there is one.
+    /// Draws captions, and the message, if there is one.
     pub(crate) fn draw_message(&mut self) {
+        if self.photo.is_none() {
+            self.captions.draw(&mut self.pen);
+        }
         let Some((text, _)) = self.message.as_ref().filter(|(_, until)| self.time < *until) else { return };
         let pen = &mut self.pen;
         let (screen, line) = (pen.screen(), pen.line(TextSize::Small));

@@ -54,11 +54,7 @@ impl FoodChainEnd {
             let today = todays_seed(context);
             let day = Some(life.seed).filter(|seed| *seed == today);
             let kept = kept.and(context.chain_records.add(feats, day, &context.store));
-            let ghost = if platform::KEEPS_GHOSTS && is_plain {
-                context.best_life.add(&record, today, &context.store)
-            } else {
-                Ok(())
-            };
+            let ghost = if is_plain { context.best_life.add(&record, today, &context.store) } else { Ok(()) };
             context.keep_game(record, kept.and(ghost));
             place
         });

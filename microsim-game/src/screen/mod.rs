@@ -20,6 +20,7 @@ mod lobby;
 mod name;
 mod offer;
 mod page;
+mod parted;
 mod pause;
 mod photo;
 mod photo_view;

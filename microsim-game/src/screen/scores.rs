@@ -3,6 +3,7 @@
 use super::context::AppContext;
 use super::join::LONGEST;
 use super::page::draw_heading;
+use super::pick::builtin_title;
 use super::{Next, Overlay, Screen};
 use crate::draw::palette::{HALO, READY};
 use crate::input::{Input, Move};
@@ -28,10 +29,8 @@ impl ScoreList {
     pub(super) fn new(context: &AppContext) -> Self {
         let (game, time) = (context.game.label(), context.game.time().unwrap_or_default());
         let scores = |game: &str| context.scores.of_game(game).cloned().collect::<Vec<Score>>();
-        let [named, seconds] = [context.game.source.to_string(), words::number(time, 0)];
-        let told = [("game", (&named).into()), ("time", (&seconds).into())];
         let of_game = context.scores.of(&game, time).cloned().collect();
-        let first = (words::text_with(Key::ScoresHeading, &told), Key::ScoresPoints, of_game);
+        let first = (heading(&context.game.source.to_string(), time), Key::ScoresPoints, of_game);
         let others = [
             (NAME.to_owned(), Key::TitleFoodChain, Key::ScoresSeconds),
             (together(), Key::TitleTwoPlayers, Key::ScoresPoints),
@@ -40,6 +39,12 @@ impl ScoreList {
         let pages = [first].into_iter().chain(others.into_iter().filter(|(.., scores)| !scores.is_empty()));
         Self { pages: pages.collect(), at: 0 }
     }
+}
+
+/// What a list of scores of a game of this name and time, s, is called.
+fn heading(game: &str, time: f32) -> String {
+    let (named, seconds) = (builtin_title(game), words::number(time, 0));
+    words::text_with(Key::ScoresHeading, &[("game", named.text().into()), ("time", (&seconds).into())])
 }
 
 impl ScoreList {
@@ -129,6 +134,14 @@ pub(super) fn draw_table(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_list_is_named_in_the_language_of_the_player() {
+        let headings = ["game", "a.toml"].map(|game| heading(game, 90.0));
+        assert_eq!(headings, ["The game, 90 s", "a.toml, 90 s"].map(|game| format!("High scores: {game}")));
+        words::choose(words::Language::named("cs").unwrap(), || None);
+        assert!(heading("game", 90.0).ends_with("Hra, 90 s"));
+    }
 
     #[test]
     fn lists_come_one_after_the_other_and_then_the_goals_which_lead_back() {

@@ -22,10 +22,11 @@ const DIGESTION: usize = 5;
 const CRAWL: usize = 6;
 const PACE: usize = 7;
 const SOUND: usize = 8;
-const ARROWS: usize = 9;
-const FULL_SCREEN: usize = 10;
-const KEYS: usize = 11;
-const NAME: usize = 12;
+const CAPTIONS: usize = 9;
+const ARROWS: usize = 10;
+const FULL_SCREEN: usize = 11;
+const KEYS: usize = 12;
+const NAME: usize = 13;
 
 impl SettingsMenu {
     pub(super) fn new(context: &AppContext) -> Self {
@@ -45,6 +46,7 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
         MenuItem::switch(Key::SettingsCrawl, settings.click_to_crawl),
         MenuItem::with(Key::SettingsPace, percent(settings.pace())),
         MenuItem::with(Key::SettingsSound, percent(settings.loudness())),
+        MenuItem::switch(Key::SettingsCaptions, settings.captions),
         MenuItem::switch(Key::SettingsArrows, settings.classic_arrows),
         MenuItem::switch(Key::SettingsFullScreen, settings.full_screen),
         MenuItem::new(Key::SettingsKeys),
@@ -61,6 +63,7 @@ fn about(item: usize) -> Option<Key> {
         DIGESTION => Some(Key::SettingsDigestionAbout),
         CRAWL => Some(Key::SettingsCrawlAbout),
         PACE => Some(Key::SettingsPaceAbout),
+        CAPTIONS => Some(Key::SettingsCaptionsAbout),
         ARROWS => Some(Key::SettingsArrowsAbout),
         _ => None,
     }
@@ -89,6 +92,7 @@ fn change(choice: MenuChoice, context: &mut AppContext) -> Option<Next> {
         MenuChoice::Less(PACE) => settings.change_pace(true),
         MenuChoice::Pick(SOUND) => settings.change_sound(true),
         MenuChoice::Less(SOUND) => settings.change_sound(false),
+        MenuChoice::Pick(CAPTIONS) | MenuChoice::Less(CAPTIONS) => settings.captions ^= true,
         MenuChoice::Pick(ARROWS) | MenuChoice::Less(ARROWS) => settings.classic_arrows ^= true,
         MenuChoice::Pick(FULL_SCREEN) | MenuChoice::Less(FULL_SCREEN) => settings.full_screen ^= true,
         MenuChoice::Pick(NAME) => return Some(Next::Open(Overlay::Name)),
@@ -110,7 +114,7 @@ impl Screen for SettingsMenu {
             return next;
         }
         self.page.menu.items = items(context);
-        if let MenuChoice::Pick(SOUND) | MenuChoice::Less(SOUND) = choice {
+        if let MenuChoice::Pick(SOUND | CAPTIONS) | MenuChoice::Less(SOUND | CAPTIONS) = choice {
             context.play(&[Cue::Digest]);
         }
         context.save_settings();
@@ -142,7 +146,7 @@ mod tests {
         for language in &words::LANGUAGES {
             words::choose(language, || None);
             let told: Vec<&str> = (LANGUAGE..=KEYS).filter_map(about).map(words::text).collect();
-            assert_eq!(told.len(), 6);
+            assert_eq!(told.len(), 7);
             for about in told {
                 assert!(is_seen_whole(about), "{}: {about}", language.code);
             }

@@ -16,6 +16,8 @@ pub enum Cue {
     Digest,
     /// A cell lunges.
     Lunge,
+    /// Somebody who bites comes near.
+    Danger,
     /// One cell became two.
     Divide,
     /// Two cells became one.
@@ -28,9 +30,9 @@ pub enum Cue {
 
 impl Cue {
     /// All of them.
-    pub const ALL: [Self; 9] = {
+    pub const ALL: [Self; 10] = {
         use Cue::*;
-        [Engulf, Ingest, Release, Digest, Lunge, Divide, Fuse, Second, End]
+        [Engulf, Ingest, Release, Digest, Lunge, Danger, Divide, Fuse, Second, End]
     };
 
     /// What an event sounds like to one organism, which hears only what it does itself, or to a watcher, who hears everybody.
@@ -58,6 +60,7 @@ impl Cue {
             Self::Release => vec![Tone::glide([150.0, 330.0], 0.16, 0.40)],
             Self::Digest => vec![Tone::note(523.25, 0.18, 0.35), Tone::note(783.99, 0.28, 0.35).after(0.07)],
             Self::Lunge => vec![Tone::glide([130.0, 400.0], 0.22, 0.45)],
+            Self::Danger => vec![Tone::note(196.0, 0.14, 0.40), Tone::note(185.0, 0.20, 0.40).after(0.16)],
             Self::Divide => vec![Tone::glide([330.0, 220.0], 0.35, 0.35), Tone::glide([330.0, 495.0], 0.35, 0.35)],
             Self::Fuse => vec![Tone::glide([220.0, 330.0], 0.35, 0.35), Tone::glide([495.0, 330.0], 0.35, 0.35)],
             Self::Second => vec![Tone::note(880.0, 0.06, 0.25)],

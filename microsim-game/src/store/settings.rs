@@ -31,6 +31,8 @@ pub struct Settings {
     pub pace: usize,
     /// Which of the steps from silence to the full loudness.
     pub sound: usize,
+    /// What is heard is written, too.
+    pub captions: bool,
     /// Green arrows over cells that cannot be taken in while there is no room, as in the thesis.
     pub classic_arrows: bool,
     /// What the player is called in the list of scores and, without `--name`, in rooms; empty for nothing.
@@ -56,6 +58,7 @@ impl Default for Settings {
             click_to_crawl: false,
             pace: 0,
             sound: 3,
+            captions: false,
             classic_arrows: false,
             name: String::new(),
             sight: String::new(),
@@ -81,6 +84,7 @@ impl Settings {
             click_to_crawl,
             pace,
             sound,
+            captions,
             classic_arrows,
             name,
             sight,
@@ -96,6 +100,7 @@ impl Settings {
             click_to_crawl: newer(self.click_to_crawl, click_to_crawl, others.click_to_crawl),
             pace: newer(self.pace, pace, others.pace),
             sound: newer(self.sound, sound, others.sound),
+            captions: newer(self.captions, captions, others.captions),
             classic_arrows: newer(self.classic_arrows, classic_arrows, others.classic_arrows),
             name: newer(self.name, name, others.name),
             sight: newer(self.sight, sight, others.sight),

@@ -34,7 +34,13 @@ fn settings_and_keys_fit_their_menu_in_a_small_window() {
             (Key::SettingsPace, vec!["100 %"]),
             (Key::SettingsSound, vec!["100 %"]),
         ];
-        let switches = [Key::SettingsMotion, Key::SettingsDigestion, Key::SettingsCrawl, Key::SettingsArrows];
+        let switches = [
+            Key::SettingsMotion,
+            Key::SettingsDigestion,
+            Key::SettingsCrawl,
+            Key::SettingsCaptions,
+            Key::SettingsArrows,
+        ];
         items
             .extend(switches.into_iter().chain([Key::SettingsFullScreen, Key::KeysLetters]).map(|key| (key, switch())));
         items.extend(Action::ALL.map(|action| (action.label(), vec![text(Key::KeysPress)])));
@@ -60,7 +66,9 @@ fn menus_and_headings_fit_a_small_window() {
                     title
                 }
                 "quit" | "pause" | "back" | "settings" => middle,
-                _ if ["end-again", "end-watch", "slide-end-next", "chain-today", "chain-other"].contains(&name) => {
+                _ if ["end-again", "end-watch", "slide-end-next", "chain-today", "chain-other", "chain-same"]
+                    .contains(&name) =>
+                {
                     middle
                 }
                 _ => continue,

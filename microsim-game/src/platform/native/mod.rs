@@ -37,8 +37,6 @@ const LONGEST: u64 = 1 << 28;
 
 /// Whether the program can end of itself.
 pub const CAN_QUIT: bool = true;
-/// Whether the best life of the food chain is kept, to be seen as a ghost.
-pub const KEEPS_GHOSTS: bool = true;
 /// Whether menus are shown by more than their drawing.
 pub const SHOWS_MENUS: bool = false;
 

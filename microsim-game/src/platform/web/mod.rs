@@ -20,8 +20,6 @@ use std::{io, panic};
 
 /// Whether the program can end of itself: a page is closed.
 pub const CAN_QUIT: bool = false;
-/// Whether the best life of the food chain is kept, to be seen as a ghost: that would be 1 kB more to download than there is room for.
-pub const KEEPS_GHOSTS: bool = false;
 /// Whether menus are shown by more than their drawing.
 pub const SHOWS_MENUS: bool = true;
 

@@ -154,6 +154,25 @@ fn a_novice_meets_the_first_choice_in_most_rounds_and_lives_about_two_minutes() 
     assert!(4 * met >= 3 * rounds.len() && (90.0..150.0).contains(&times[times.len() / 2]), "{met}, {times:.0?}");
 }
 
+/// When a novice meets the first choice, s.
+fn first_choice(seed: u64) -> f64 {
+    let mut round = round(seed);
+    let mut bot = ChainBot::new(Skill::Novice, &round);
+    while !round.is_over() && round.offer(0).is_none() {
+        bot.act(&mut round);
+    }
+    if round.is_over() { f64::INFINITY } else { round.world().time() }
+}
+
+#[test]
+#[ignore = "for release builds"]
+fn a_novice_meets_the_first_choice_within_the_first_minute() {
+    let mut times = each_seed(first_choice);
+    times.sort_by(f64::total_cmp);
+    println!("{times:.0?}");
+    assert!(times[times.len() / 2] <= 60.0, "{times:.0?}");
+}
+
 /// What is found with each seed, on all cores.
 fn each_seed<T: Send>(find: impl Fn(u64) -> T + Sync) -> Vec<T> {
     let seeds: Vec<u64> = seeds().collect();

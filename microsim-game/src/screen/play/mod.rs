@@ -22,6 +22,7 @@ use crate::rules::ghost::Ghost;
 use crate::rules::hint::{Hints, taken_in};
 use crate::rules::lesson::FirstDeed;
 use crate::rules::round::Round;
+use crate::rules::threat::Alarm;
 use crate::rules::two_players::TwoPlayers;
 use crate::sound::Cue;
 use crate::store::settings::Settings;
@@ -57,6 +58,7 @@ pub(super) struct Play {
     fullest: Vec<f32>,
     /// What was heard in this frame.
     heard: Vec<Cue>,
+    alarm: Alarm,
     follow: Follow,
     /// The player whose cell is looked at.
     own: usize,
@@ -257,6 +259,10 @@ impl Screen for Play {
             self.tempo = self.tempo.changed(input.presses(Action::Faster), input.presses(Action::Slower));
         }
         self.run(input, context);
+        let is_hunted = chain_scene::is_hunted(&self.round, self.round.world().view(), self.seen());
+        if self.alarm.rings(is_hunted, context.pace.elapsed) {
+            self.heard.push(Cue::Danger);
+        }
         context.play(&self.heard);
         self.look(input, context);
         if self.has_ended(context) {

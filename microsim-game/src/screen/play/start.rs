@@ -12,10 +12,10 @@ use crate::game_choice::GameChoice;
 use crate::hud::marks;
 use crate::hud::pulse::Pulses;
 use crate::input::Action;
-use crate::platform;
 use crate::rules::food_chain::NAME;
 use crate::rules::ghost::Ghost;
 use crate::rules::round::Round;
+use crate::rules::threat::Alarm;
 use crate::rules::two_players::{self, TwoPlayers};
 use crate::slides;
 use crate::viewer::{Viewer, first_view};
@@ -79,7 +79,7 @@ impl Play {
             Paused::TwoPlayers(way) => way,
             _ => TwoPlayers::Versus,
         });
-        let has_ghost = platform::KEEPS_GHOSTS && round.chain().is_some() && !round.is_replay();
+        let has_ghost = round.chain().is_some() && !round.is_replay();
         let best_life = if has_ghost { context.best_life.record() } else { None };
         let ghost = best_life.and_then(|record| Ghost::of(record, world));
         let own = if is_of_lines { context.last_seat } else { 0 };
@@ -101,6 +101,7 @@ impl Play {
             done: DoneNote::default(),
             fullest: Vec::new(),
             heard: Vec::new(),
+            alarm: Alarm::default(),
             follow,
             own,
             hands: Hands::default(),
