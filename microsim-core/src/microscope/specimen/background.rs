@@ -57,7 +57,7 @@ const FAR_DYED: f32 = 1.3;
 const DUST_FADES: [f32; 2] = [0.5, 1.0];
 const FAR_ENDS: f32 = 2.0;
 /// Strength and size of the glass's unevenness, radians and micrometres.
-const FINE: f32 = 0.013;
+const FINE: f32 = 0.007;
 const FINE_SIZE: f32 = 1.2;
 const COARSE: f32 = 0.035;
 const COARSE_SIZE: f32 = 15.0;
