@@ -20,8 +20,8 @@ const PIXELS: [[f32; 2]; 5] = [[0.074, 0.085], [0.12, 0.60], [0.05, 0.12], [0.06
 const LATEST: f64 = 8.0;
 /// Side of the field that a camera takes, of which a crop is one part as of the references, pixels.
 const FIELD: usize = 384;
-/// Share of the views that are aimed at one of the largest things; a smear is seen anywhere.
-const LARGEST: f32 = 0.7;
+/// Share of the views that are aimed at one of the largest things; in smears most show red cells alone.
+const LARGEST: [f32; 2] = [0.7, 0.3];
 /// Shares of a grey picture's pixels that are black and white: so the references were made, except fluorescence, whose white
 /// is rarer.
 const BLACK: f32 = 0.002;
@@ -56,7 +56,7 @@ fn viewed(kind: usize, rng: &mut Rng) -> Outcome<(&'static str, World, Vec2, f32
     let [finest, coarsest] = PIXELS[kind];
     let width = (finest * (coarsest / finest).powf(rng.unit()) * FIELD as f32).min(size.min_element());
     let margin = Vec2::splat(0.5 * width).min(0.5 * size);
-    let largest = if is_smear { 0.0 } else { LARGEST };
+    let largest = LARGEST[usize::from(is_smear)];
     let centre = aim(&world, width, largest, rng).clamp(margin, size - margin);
     Ok((name, world, centre, width))
 }
