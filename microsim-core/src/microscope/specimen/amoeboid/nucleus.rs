@@ -196,7 +196,7 @@ mod tests {
                 let [share, at_rim] = body.nucleus_and_rim(place, 0.05);
                 let dense = body.nucleus_matter(place, 0.05).nucleus / share;
                 let sum = if at_rim > 0.6 { &mut rim } else { &mut middle };
-                if share > 0.5 && (at_rim > 0.6 || at_rim < 0.02) {
+                if share > 0.5 && !(0.02..=0.6).contains(&at_rim) {
                     *sum = [sum[0] + dense, sum[1] + 1.0];
                 }
             }
