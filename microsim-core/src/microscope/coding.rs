@@ -32,10 +32,14 @@ pub fn code(bytes: &mut [u8], columns: usize, quality: u8) {
     let step = |table: f32| (table * scale).clamp(1.0, 255.0);
     round(&mut planes[0], size[0], 1, |k| step(f32::from(BRIGHTNESS[k])));
     let colour = |k: usize| if k % 8 < 4 && k / 8 < 4 { f32::from(COLOUR[k / 8 * 4 + k % 8]) } else { 99.0 };
-    planes[1..].iter_mut().for_each(|plane| round(plane, size[0], 2, |k| step(colour(k))));
+    for plane in &mut planes[1..] {
+        round(plane, size[0], 2, |k| step(colour(k)));
+        plane.chunks_exact_mut(size[0]).for_each(interpolate);
+    }
     for (k, pixel) in bytes.chunks_exact_mut(3).enumerate() {
         let at = k / columns * size[0] + k % columns;
-        let [y, blue, red] = [planes[0][at], planes[1][at], planes[2][at]];
+        // Decoders count in whole levels.
+        let [y, blue, red] = [0, 1, 2].map(|plane: usize| planes[plane][at].round());
         let (r, b) = (y + red / 0.713, y + blue / 0.564);
         let g = (y - 0.299 * r - 0.114 * b) / 0.587;
         pixel.copy_from_slice(&[r, g, b].map(|value| (value + 0.5).clamp(0.0, 255.0) as u8));
@@ -77,6 +81,16 @@ fn round(plane: &mut [f32], width: usize, stride: usize, step: impl Fn(usize) ->
                 plane[at(k)..at(k) + stride].fill(value);
             }
         }
+    }
+}
+
+/// Interpolates a row of which neighbouring pairs are alike, as decoders do: three quarters of a value and one of the next.
+fn interpolate(row: &mut [f32]) {
+    let values: Vec<f32> = row.iter().copied().step_by(2).collect();
+    for (k, value) in row.iter_mut().enumerate() {
+        let next = if k % 2 == 0 { (k / 2).checked_sub(1) } else { Some(k / 2 + 1) };
+        let next = next.and_then(|next| values.get(next)).copied().unwrap_or(values[k / 2]);
+        *value = 0.75 * values[k / 2] + 0.25 * next;
     }
 }
 
@@ -125,6 +139,13 @@ mod tests {
         });
         assert!(losses.is_sorted_by(|a, b| a > b), "{losses:?}");
         code(&mut [], 0, 50);
+    }
+
+    #[test]
+    fn colours_run_into_each_other_along_rows() {
+        let mut row = [0.0, 0.0, 8.0, 8.0, 8.0, 8.0];
+        interpolate(&mut row);
+        assert_eq!(row, [0.0, 2.0, 6.0, 8.0, 8.0, 8.0]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::optics::sampler::{REACH, Sampler};
 use super::optics::{Mode, Optics, PixelShader, Shader};
 use super::painting::Painting;
 use super::raster::{PixelGrid, bilinear, blur};
-use super::sensor::interpolate;
+use super::sensor::{interpolate, smooth_colours, smooth_fields};
 use super::specimen::Specimen;
 use super::surround_wave::{self, SurroundWave};
 use crate::error::Error;
@@ -137,8 +137,9 @@ impl Exposure {
         if !self.film.has_mosaic {
             return self.record::<3>(rows);
         }
-        let around = rows.start.saturating_sub(1)..height.min(rows.end + 1);
+        let around = rows.start.saturating_sub(2)..height.min(rows.end + 2);
         let mut bytes = interpolate(&self.record::<3>(around.clone()), columns, around.start);
+        bytes = smooth_colours(&smooth_fields(&bytes, columns), columns);
         let row = |row: usize| 3 * columns * (row - around.start);
         bytes.truncate(row(rows.end));
         bytes.split_off(row(rows.start))

@@ -77,7 +77,15 @@ impl Film {
         coding_quality: 0,
     };
     /// A colour camera on a microscope, as its files are: grain is that of its sensor's pixels.
-    pub const PHOTO: Self = Self { grain: 0.03, blotches: 0.3, has_mosaic: true, coding_quality: 80, ..Self::DIGITAL };
+    pub const PHOTO: Self = Self {
+        grain: 0.025,
+        blotches: 0.58,
+        dust: 0.22,
+        sharpening: 0.45,
+        has_mosaic: true,
+        coding_quality: 75,
+        ..Self::DIGITAL
+    };
 
     /// Checks every number.
     ///
@@ -205,13 +213,13 @@ struct GrainShifts {
 /// Spread of stains, spreads of the light of all colours and of each, and least and most blur beyond that of the optics,
 /// each in the film's glare.
 const STAINS: f32 = 2.6;
-const LIGHTS: [f32; 2] = [1.9, 0.35];
+const LIGHTS: [f32; 2] = [1.3, 0.35];
 const DULL: [f32; 2] = [-5.0, 18.0];
 /// Shares of grain of a pixel's size and of larger grain.
 const FINE: f32 = 0.95;
 const COARSE: f32 = 0.12;
 /// Grain of each colour's own, in blotches of some pixels: a sensor has least blue light, and its noise is smoothed most.
-const BLOTCHES: [f32; 3] = [0.8, 0.3, 2.4];
+const BLOTCHES: [f32; 3] = [0.4, 0.2, 2.6];
 const BLOTCH_SIZE: f32 = 6.0;
 const DARK_BLOTCHES: f32 = 0.2;
 /// Shadows of dust, and all shadows: the others are broad and shallow, where the condenser lights the field less.

@@ -1,4 +1,5 @@
-//! A sensor whose pixels see one colour each (Bayer, US patent 3 971 065): the two others are interpolated.
+//! A sensor whose pixels see one colour each (Bayer, US patent 3 971 065): the two others are interpolated. It is read in two
+//! fields, every second row at a time, of which one is made up from its neighbours.
 
 /// Colour that a pixel of the sensor sees: green on every second one, red and blue in every second row.
 fn seen(x: usize, y: usize) -> usize {
@@ -31,6 +32,35 @@ pub(super) fn interpolate(bytes: &[u8], columns: usize, top: usize) -> Vec<u8> {
     (0..rows * columns).flat_map(|k| -> [u8; 3] { pixel(k) }).collect()
 }
 
+/// Means of each row with a quarter of the rows above and below, which a camera that is read in fields leaves; the first and the
+/// last row as before.
+pub(super) fn smooth_fields(bytes: &[u8], columns: usize) -> Vec<u8> {
+    let (last, stride) = (bytes.len().saturating_sub(3 * columns), 3 * columns);
+    let mean = |k: usize| {
+        let [above, below] = [k.checked_sub(stride).unwrap_or(k), if k < last { k + stride } else { k }];
+        let [a, b, c] = [above, k, below].map(|at| u32::from(bytes[at]));
+        ((a + 2 * b + c + 2) / 4) as u8
+    };
+    (0..bytes.len()).map(mean).collect()
+}
+
+/// Averages, over so many pixels to each side along rows, by how much red and blue differ from green: cameras keep noise of
+/// colours low.
+pub(super) fn smooth_colours(bytes: &[u8], columns: usize) -> Vec<u8> {
+    const SIDE: usize = 2;
+    let mean = |k: usize| -> [u8; 3] {
+        let (row, x) = (k / columns * columns, k % columns);
+        let around = x.saturating_sub(SIDE)..columns.min(x + SIDE + 1);
+        let count = around.len() as i32;
+        let pixels = around.map(|x| &bytes[3 * (row + x)..][..3]);
+        let sums = pixels.fold([0; 3], |sums: [i32; 3], pixel| {
+            std::array::from_fn(|colour| sums[colour] + i32::from(pixel[colour]) - i32::from(pixel[1]))
+        });
+        sums.map(|sum| (i32::from(bytes[3 * k + 1]) + sum / count).clamp(0, 255) as u8)
+    };
+    (0..bytes.len() / 3).flat_map(mean).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,6 +75,25 @@ mod tests {
         let at = |x: usize, y: usize| &seen[3 * (y * 6 + x)..][..3];
         assert_eq!(at(2, 2)[0], 255);
         assert!(at(3, 2).iter().any(|value| *value > 0) && at(3, 2).windows(2).any(|pair| pair[0] != pair[1]));
+    }
+
+    #[test]
+    fn fields_smooth_columns_and_leave_rows() {
+        let rows: Vec<u8> = (0..4 * 8).flat_map(|k| [if k / 4 == 3 { 200 } else { 0 }; 3]).collect();
+        let smooth = smooth_fields(&rows, 4);
+        let column: Vec<u8> = (0..8).map(|y| smooth[3 * 4 * y]).collect();
+        assert_eq!(column, [0, 0, 50, 100, 50, 0, 0, 0]);
+        let columns: Vec<u8> = (0..4 * 8).flat_map(|k| [(k % 4 * 60) as u8; 3]).collect();
+        assert_eq!(smooth_fields(&columns, 4), columns);
+    }
+
+    #[test]
+    fn colours_are_smoothed_along_rows_and_green_is_kept() {
+        let red: Vec<u8> = (0..9 * 3).flat_map(|k| [if k % 9 == 4 { 150 } else { 100 }, 100, 100]).collect();
+        let smooth = smooth_colours(&red, 9);
+        let row: Vec<u8> = (0..9).map(|x| smooth[3 * (9 + x)]).collect();
+        assert_eq!(row, [100, 100, 110, 110, 110, 110, 110, 100, 100]);
+        assert!(smooth.chunks_exact(3).all(|pixel| pixel[1..] == [100, 100]));
     }
 
     #[test]

@@ -11,7 +11,7 @@ vec4 matter_at(vec2 uv) {
 
 // The wave behind some matter, relative to the one behind nothing.
 vec2 behind(vec4 matter) {
-    return vec2(cos(matter.x), sin(matter.x)) * exp(-0.5 * GREEN_DENSITY * matter.y);
+    return vec2(cos(matter.x), sin(matter.x)) * exp(-0.5 * GREEN_DENSITY * max(matter.y, 0.0));
 }
 
 // What shines in fluorescence.

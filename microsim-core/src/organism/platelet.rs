@@ -108,7 +108,7 @@ impl Spec for PlateletSpec {
         Look {
             image: ImageLook::Round(&RoundLook {
                 profile: Profile::Dome(0.9),
-                matter: Matter { phase: 0.34, haemoglobin: 0.0, cytoplasm: 0.16, nucleus: 0.04 },
+                matter: Matter { phase: 0.34, haemoglobin: 0.0, cytoplasm: 0.20, nucleus: 0.10 },
                 variation: 0.35,
                 texture: Texture { amount: 0.09, size: 0.8 },
                 outline: OutlineLook {
@@ -139,7 +139,7 @@ const GRANULOMERE: Inclusion = Inclusion {
     count: [2, 3],
     radius: [0.40, 0.62],
     place: [0.0, 0.22],
-    matter: Matter { phase: 0.12, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.20 },
+    matter: Matter { phase: 0.12, haemoglobin: 0.0, cytoplasm: 0.12, nucleus: 0.13 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };
@@ -149,7 +149,7 @@ const LUMPS: Inclusion = Inclusion {
     count: [3, 9],
     radius: [0.12, 0.30],
     place: [0.0, 0.55],
-    matter: Matter { phase: 0.06, haemoglobin: 0.0, cytoplasm: 0.10, nucleus: 0.20 },
+    matter: Matter { phase: 0.06, haemoglobin: 0.0, cytoplasm: 0.10, nucleus: 0.13 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };
@@ -158,7 +158,7 @@ const GRANULES: Inclusion = Inclusion {
     count: [16, 40],
     radius: [0.04, 0.10],
     place: [0.0, 0.62],
-    matter: Matter { phase: 0.10, haemoglobin: 0.0, cytoplasm: 0.25, nucleus: 0.42 },
+    matter: Matter { phase: 0.10, haemoglobin: 0.0, cytoplasm: 0.25, nucleus: 0.28 },
     shape: SpotShape::Bump,
     grains: [0, 0],
 };

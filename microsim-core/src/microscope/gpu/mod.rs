@@ -22,9 +22,9 @@ use shader::LONGEST;
 const FINEST: f32 = 1.0 / 32.0;
 /// Largest standard deviation of a lens's blur, pixels: with the camera's mask it fits into a kernel.
 const MOST_SIGMA: f32 = 7.0;
-/// Scale and bias of matter in targets of bytes. Phase goes from -1 to 5.
-const BYTES_SCALE: [f32; 4] = [1.0 / 6.0, 1.0 / 1.6, 1.0 / 2.4, 1.0 / 2.0];
-const BYTES_BIAS: [f32; 4] = [1.0 / 6.0, 0.03, 0.15, 0.05];
+/// Scale and bias of matter in targets of bytes. Phase goes from -1 to 5, haemoglobin from -1 on.
+const BYTES_SCALE: [f32; 4] = [1.0 / 6.0, 1.0 / 2.8, 1.0 / 2.4, 1.0 / 2.0];
+const BYTES_BIAS: [f32; 4] = [1.0 / 6.0, 0.36, 0.15, 0.05];
 
 impl Microscope {
     /// The passes by which a graphics card draws the picture that [`Microscope::expose`] computes.

@@ -49,9 +49,9 @@ const MODE: Mode = Mode {
     is_bright: false,
     channels: 3,
     surround: Some(Surround::Emission),
-    blur: 0.17,
+    blur: 0.21,
     ground: [0.03, 0.05, 0.05],
-    grain: 1.4,
+    grain: 0.9,
     shader: Shader::Light(shade, &GLSL),
 };
 

@@ -13,14 +13,14 @@ use crate::microscope::maths::larger;
 use crate::microscope::surround_wave::Surround;
 
 /// Amplitude that the phase plate leaves of the surround wave.
-const TRANSMISSION: f32 = 0.46;
+const TRANSMISSION: f32 = 0.38;
 /// Grey of a field without a specimen.
 const BACKGROUND: f32 = 0.40;
-const GAMMA: f32 = 0.85;
+const GAMMA: f32 = 0.95;
 /// Share of the background that comes even where waves cancel: the condenser's ring is wide.
-const LEAK: f32 = 0.06;
+const LEAK: f32 = 0.12;
 /// How a camera's tone curve bends light that is brighter than the background.
-const SHOULDER: f32 = 0.55;
+const SHOULDER: f32 = 0.10;
 
 const SOURCE: &str = bare_text!("phase_contrast.glsl", "//");
 const POSITIVE_GLSL: Glsl = Glsl {
@@ -58,7 +58,7 @@ const POSITIVE: Mode = Mode {
     surround: Some(Surround::Wave),
     blur: 0.11,
     ground: [BACKGROUND; 3],
-    grain: 0.75,
+    grain: 0.42,
     shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
 

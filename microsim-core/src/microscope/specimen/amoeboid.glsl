@@ -35,7 +35,8 @@ float lamella_at(vec2 place) {
 }
 
 // `from_centre` is turned with the cell by `turn`.
-float nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
+// How much a place belongs to the nucleus, and to its rim.
+vec2 nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
     float neck = NECK * middle.z;
     vec2 bends = from_centre / (BENDS * middle.z);
     vec2 bend = vec2(value(bends, shifts[4]), value(bends, shifts[3]));
@@ -47,13 +48,15 @@ float nucleus_at(vec2 place, mat2 turn, vec2 from_centre, float softness) {
         depth = mix(other, depth, share) + neck * share * (1.0 - share);
     }
     if (depth <= -2.0 * softness - 0.3) {
-        return 0.0;
+        return vec2(0.0);
     }
     float uneven = three_octaves(from_centre / (0.2 * middle.z), shifts[4]);
     depth += NUCLEUS_UNEVEN * middle.z * uneven;
     float width = max(softness, NUCLEUS_EDGE);
     float thickness = mix(NUCLEUS_THIN, 1.0, rise(depth / NUCLEUS_RIM));
-    return rising(-width, width, depth) * (thickness + ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25));
+    float envelope = ENVELOPE * max(1.0 + uneven, 0.0) * bell((depth - 0.2) / 0.25);
+    float band = bell((depth - 0.3) / CONDENSED_WIDTH) * (1.0 + uneven);
+    return vec2(rising(-width, width, depth) * (thickness + envelope), band);
 }
 
 void main() {
@@ -82,13 +85,15 @@ void main() {
     vec2 way = normalize(vec2(own_frame.x + own_frame.w, own_frame.y - own_frame.z));
     mat2 turn = mat2(way, -way.y, way.x);
     vec2 turned = turn * from_centre;
-    float nucleus = nucleus_at(at, turn, turned, softness);
+    vec2 nucleus = nucleus_at(at, turn, turned, softness);
     vec2 grain = turned / nucleus_texture.y;
     vec2 other = mat2(OTHER_LATTICE, -OTHER_LATTICE.y, OTHER_LATTICE.x) * grain;
-    float clumped = abs(two_octaves(grain, shifts[2])) + PATCHES * two_octaves(other, shifts[4]);
-    float dense = rising(CHROMATIN.x, CHROMATIN.y, clumped);
-    float clumps = CLUMPS * nucleus_texture.x * (1.60 * dense - 1.0);
-    sum += nucleus_matter * nucleus * (1.0 + clumps * vec4(CLUMPS_DELAY, 1.0, 1.0, 1.0));
+    float clumped = abs(two_octaves(grain, shifts[2])) + PATCHES * two_octaves(other, shifts[4]) + CONDENSED * nucleus.y;
+    vec2 fine = mat2(FINE_LATTICE, -FINE_LATTICE.y, FINE_LATTICE.x) * grain;
+    float gaps = GAPS * rising(OPEN.x, OPEN.y, value(fine, shifts[0]));
+    float dense = 1.60 * rising(CHROMATIN.x, CHROMATIN.y, clumped) - gaps;
+    float clumps = CLUMPS * nucleus_texture.x * (dense - 0.95);
+    sum += nucleus_matter * nucleus.x * (1.0 + clumps * vec4(CLUMPS_DELAY, 1.0, 1.0, 1.0));
     put(sum * rising(-softness, softness, depth));
 }
 #endif

@@ -35,9 +35,12 @@ const FAR: f32 = 0.9;
 const FIBRE_CELL: f32 = 60.0;
 const FIBRES: f32 = 0.35;
 const FIBRE_POINTS: usize = 14;
+/// Median distance of these, micrometres, and the standard deviation of its logarithm.
+const FIBRE_STEP: f32 = 0.5;
+const FIBRE_SPREAD: f32 = 0.8;
 /// The same for scratches of the glass, and their longest, micrometres.
 const SCRATCH_CELL: f32 = 60.0;
-const SCRATCHES: f32 = 0.5;
+const SCRATCHES: f32 = 0.35;
 const LONGEST_SCRATCH: f32 = 55.0;
 /// The same for streaks, which all run about one way: where a fluid dried, or where the slide was wiped.
 const STREAK_CELL: f32 = 110.0;
@@ -54,7 +57,7 @@ const FAR_DYED: f32 = 1.3;
 const DUST_FADES: [f32; 2] = [0.5, 1.0];
 const FAR_ENDS: f32 = 2.0;
 /// Strength and size of the glass's unevenness, radians and micrometres.
-const FINE: f32 = 0.013;
+const FINE: f32 = 0.007;
 const FINE_SIZE: f32 = 1.2;
 const COARSE: f32 = 0.035;
 const COARSE_SIZE: f32 = 15.0;
@@ -162,7 +165,7 @@ impl BackgroundMatter {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
         let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
         let size = 0.155 * libm::expf(0.55 * rng.normal());
-        let dense = 0.135 * libm::expf(0.65 * rng.normal()) * strength;
+        let dense = 0.10 * libm::expf(0.65 * rng.normal()) * strength;
         let along = rng.direction() * (1.6 * rng.unit());
         let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
@@ -201,29 +204,42 @@ impl BackgroundMatter {
     }
 }
 
-/// A fibre that wanders over the glass.
+/// A fibre that wanders over the glass, with strands that part from its end, in focus or not.
 fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
-    let (mut at, mut direction) = (at, rng.direction());
-    let step = rng.range([0.25, 1.0]);
-    let bend = rng.range([-0.15, 0.15]);
-    let mut point = || {
-        at += direction * step;
-        direction = rotate(direction, unit_vector(bend + 0.25 * rng.normal()));
-        at
-    };
-    let points: [Vec2; FIBRE_POINTS] = std::array::from_fn(|_| point());
-    let radius = rng.range([0.06, 0.16]);
-    let dense = strength * rng.range([0.04, 0.22]);
+    let step = FIBRE_STEP * libm::expf(FIBRE_SPREAD * rng.normal());
+    let bend = 0.28 * rng.normal();
+    let blur = if rng.unit() < 0.35 { rng.range([2.0, 5.0]) } else { 1.0 };
+    let radius = 0.09 * libm::expf(0.35 * rng.normal()) * blur;
+    let dense = strength * rng.range([0.03, 0.15]) / blur;
     let matter = Matter { nucleus: 0.15 * dense, ..Matter::phase(dense) };
-    Thread::curve(&points, |_| radius, matter).collect()
+    let trunk = wander(at, rng.direction() * step, bend, rng);
+    let mut threads: Vec<Thread> = Thread::curve(&trunk, |_| radius, matter).collect();
+    for _ in 0..rng.bits() % 3 {
+        let from = FIBRE_POINTS - 2 - rng.bits() as usize % (FIBRE_POINTS / 2);
+        let way = rotate(trunk[from + 1] - trunk[from], unit_vector(0.5 * rng.normal()));
+        let strand = wander(trunk[from], way * rng.range([0.2, 0.5]), bend, rng);
+        threads.extend(Thread::curve(&strand, |_| 0.7 * radius, matter * 0.6));
+    }
+    threads
 }
 
-/// A scratch: straight, thin, deeper here and shallower there.
+/// Points on a way that bends this much at each step, more or less.
+fn wander(at: Vec2, step: Vec2, bend: f32, rng: &mut HashRng) -> [Vec2; FIBRE_POINTS] {
+    let (mut at, mut step) = (at, step);
+    std::array::from_fn(|_| {
+        at += step;
+        step = rotate(step, unit_vector(bend + 0.3 * rng.normal()));
+        at
+    })
+}
+
+/// A scratch: thin, bent a little, deeper here and shallower there.
 fn scratch(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
     let radius = rng.range([0.05, 0.16]);
-    let length = LONGEST_SCRATCH * libm::expf(0.5 * rng.normal() - 1.0);
+    let length = LONGEST_SCRATCH * libm::expf(0.8 * rng.normal() - 1.4);
     let deep = strength * rng.range([-0.16, 0.10]);
-    line(at, rng.direction() * smaller(length, LONGEST_SCRATCH), 0.01, radius, deep, rng)
+    let turn = 0.13 * rng.normal();
+    line(at, rng.direction() * smaller(length, LONGEST_SCRATCH), [turn, 0.05], radius, deep, rng)
 }
 
 /// A streak: broad, soft and faint.
@@ -231,21 +247,21 @@ fn streak(at: Vec2, along: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread
     let direction = rotate(along, unit_vector(0.12 * rng.normal()));
     let radius = 0.9 * libm::expf(0.7 * rng.normal());
     let dense = strength * rng.range([-0.05, 0.06]);
-    line(at, direction * rng.range([0.3 * LONGEST_STREAK, LONGEST_STREAK]), 0.04, radius, dense, rng)
+    line(at, direction * rng.range([0.3 * LONGEST_STREAK, LONGEST_STREAK]), [0.0, 0.04], radius, dense, rng)
 }
 
-/// A line that bends a little, in parts of different depth.
-fn line(at: Vec2, way: Vec2, bend: f32, radius: f32, phase: f32, rng: &mut HashRng) -> Vec<Thread> {
+/// A line that turns by an angle at each of its points, more or less, in parts of different depth.
+fn line(at: Vec2, way: Vec2, [turn, uneven]: [f32; 2], radius: f32, phase: f32, rng: &mut HashRng) -> Vec<Thread> {
     let (mut at, mut step) = (at, way / (LINE_POINTS - 1) as f32);
     let mut point = || {
         let point = at;
         at += step;
-        step = rotate(step, unit_vector(bend * rng.normal()));
+        step = rotate(step, unit_vector(turn + uneven * rng.normal()));
         point
     };
     let points: [Vec2; LINE_POINTS] = std::array::from_fn(|_| point());
     let parts = Thread::curve(&points, |_| radius, Matter::phase(phase)).collect::<Vec<_>>();
-    parts.into_iter().map(|part| Thread { matter: part.matter * rng.range([0.2, 1.0]), ..part }).collect()
+    parts.into_iter().map(|part| Thread { matter: part.matter * rng.range([0.0, 1.0]), ..part }).collect()
 }
 
 /// Visits the things in the cells of an endless square grid that a box touches, so many in each on average; `shift` moves
@@ -267,5 +283,27 @@ pub(super) fn strewn(
                 visit(at, &mut rng);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fibres_are_bent_and_of_many_lengths() {
+        let trunks: Vec<Vec<Thread>> = (0..100).map(|seed| fibre(Vec2::ZERO, 1.0, &mut HashRng::new(seed))).collect();
+        let points = |fibre: &Vec<Thread>| [fibre[0].from, fibre[FIBRE_POINTS - 2].to];
+        let step = |fibre: &Vec<Thread>| (fibre[0].to - fibre[0].from).length();
+        let mut steps: Vec<f32> = trunks.iter().map(step).collect();
+        steps.sort_by(f32::total_cmp);
+        assert!(steps[90] > 3.0 * steps[10], "{} {}", steps[10], steps[90]);
+        let is_straight = |fibre: &&Vec<Thread>| {
+            let [from, to] = points(fibre);
+            (to - from).length() > 0.95 * step(fibre) * (FIBRE_POINTS - 1) as f32
+        };
+        assert!(trunks.iter().filter(is_straight).count() < 25);
+        let frayed = trunks.iter().filter(|fibre| fibre.len() > FIBRE_POINTS - 1).count();
+        assert!((40..90).contains(&frayed), "{frayed}");
     }
 }

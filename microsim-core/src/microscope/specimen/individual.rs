@@ -24,9 +24,12 @@ pub(super) fn matter(look: &RoundLook, rng: &mut HashRng) -> Matter {
 }
 
 /// What red cells of a slide have in common: how it was smeared and dried.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Smear {
-    /// Share of the cells with pits from drying.
+    /// Share of the cells with drops and bubbles from drying; their size, and how deep they are.
     pub pitted: f32,
+    pub drop_size: f32,
+    pub drop_depth: f32,
     /// How pale their middles are, 0 to 1.
     pub pale: f32,
     /// By how much waves around the outline decay less, the higher they are: crenated cells.
@@ -38,7 +41,10 @@ impl Smear {
         let mut rng = HashRng::new(slide ^ 0x5ea7);
         let (pitted, crenated) = (rng.unit(), rng.unit());
         Self {
-            pitted: 0.75 * pitted * pitted,
+            // Of some slides hardly any cell.
+            pitted: if pitted < 0.4 { 0.06 * pitted } else { 0.9 * (pitted - 0.3) },
+            drop_size: libm::expf(0.2 * rng.normal()),
+            drop_depth: rng.range([0.5, 1.3]),
             pale: 0.3 + 0.7 * rng.unit(),
             crenated: 1.3 * crenated * crenated * crenated,
         }

@@ -34,10 +34,10 @@ use thread::Thread;
 
 /// How far rods are bent, share of their length; how much their width, and how far their ends reach, differ, in radii; share
 /// that are about to divide.
-const ROD_BEND: f32 = 0.05;
+const ROD_BEND: f32 = 0.10;
 const ROD_WIDTH: f32 = 0.08;
-const ROD_ENDS: f32 = 0.35;
-const ROD_SEPTA: f32 = 0.15;
+const ROD_ENDS: f32 = 0.8;
+const ROD_SEPTA: f32 = 0.3;
 /// Radius of the drops that a rod is made of, in its own: they are soft.
 const ROD_REACH: f32 = 1.25;
 /// Distance of the drops that a rod is made of, in radii.
@@ -184,6 +184,28 @@ fn rod(organism: OrganismView<'_>, matter: Matter, seed: u32) -> Vec<Spot> {
 fn drops(organism: OrganismView<'_>, matter: Matter) -> Vec<Spot> {
     let drop = |at, radius| Spot { at, radius: 1.6 * radius, matter: matter * 0.6, shape: SpotShape::Bump };
     organism.particles().map(|particle| drop(particle.position, particle.radius)).collect()
+}
+
+#[cfg(test)]
+mod rods {
+    use super::*;
+    use crate::organism::look;
+    use crate::{BacillusSpec, Placement, World, WorldConfig};
+
+    #[test]
+    fn rods_differ_in_length_bend_and_septum() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&BacillusSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
+        let bacillus = world.view().organism(id).unwrap();
+        let ImageLook::Rod(matter) = look(bacillus.kind()).image else { panic!("it is a rod") };
+        let rods: Vec<Vec<Spot>> = (0..100).map(|seed| rod(bacillus, *matter, seed)).collect();
+        let length = |rod: &Vec<Spot>| (rod[rod.len() - 1].at - rod[0].at).length();
+        let mut lengths: Vec<f32> = rods.iter().map(length).collect();
+        lengths.sort_by(f32::total_cmp);
+        assert!(lengths[95] > 1.5 * lengths[5], "{} {}", lengths[5], lengths[95]);
+        let narrow = |rod: &&Vec<Spot>| rod[rod.len() / 2].radius < 0.93 * rod[0].radius;
+        assert!((15..45).contains(&rods.iter().filter(narrow).count()));
+    }
 }
 
 #[cfg(test)]

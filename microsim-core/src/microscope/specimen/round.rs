@@ -64,8 +64,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
 #[derive(Clone, Debug)]
 pub(super) struct RoundBody {
     look: &'static RoundLook,
-    /// Share of the red cells of its slide that have pits from drying.
-    pitted: f32,
+    smear: Smear,
     polar: PolarOutline,
     /// Its own first direction: texture and inclusions turn with it.
     facing: Vec2,
@@ -119,7 +118,7 @@ impl RoundBody {
         let blur = rng.unit();
         let edge = EDGE * (1.0 + OUT_OF_FOCUS * blur * blur) + ABOVE * tier.unwrap_or(0) as f32;
         let slope = rotate(rng.direction() * (STEEPEST * rng.unit()), facing);
-        Some(Self { look, pitted: smear.pitted, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
+        Some(Self { look, smear, polar, facing, axes, seed, matter, middle, hollow, edge, slope })
     }
 
     /// Width over which the edge fades in a direction, micrometres.
@@ -226,7 +225,7 @@ impl RoundBody {
         let mut spots: Vec<Spot> =
             self.look.inclusions.iter().flat_map(|inclusion| self.include(inclusion, &mut rng)).collect();
         if let Profile::Biconcave { .. } = self.look.profile {
-            spots.extend(self.drying_pits(&mut rng));
+            spots.extend(self.drying_drops(&mut rng));
         }
         if let Some(pellicle) = self.look.pellicle {
             let spot = |(at, radius, _)| Spot { at, radius, matter: pellicle.water(), shape: SpotShape::Ball };

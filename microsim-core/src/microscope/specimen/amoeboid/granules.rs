@@ -21,6 +21,8 @@ const PATCHES: f32 = 0.40;
 /// A nucleolus: dense, of RNA and protein; and the chromatin that it takes the place of.
 const NUCLEOLUS: Matter = Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.0 };
 const DISPLACED: Matter = Matter { phase: -0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: -0.22 };
+/// Condensed chromatin around it.
+const AROUND_NUCLEOLUS: Matter = Matter { phase: 0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.14 };
 /// Share of the regions of granules that are out of focus.
 const OUT_OF_FOCUS: f32 = 0.3;
 /// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
@@ -80,8 +82,9 @@ impl AmoeboidBody {
             for _ in 0..(fewest + rng.bits() % (most - fewest + 1)) >> number {
                 let at = lobe + rotate(rng.direction() * (0.55 * size * rng.unit()), self.turn());
                 let radius = size * 0.22 * libm::expf(0.35 * rng.normal());
-                let spot = |matter: Matter| Spot { at, radius, matter: matter * share, shape: SpotShape::Bump };
-                spots.extend([spot(NUCLEOLUS), spot(DISPLACED)]);
+                let spot = |matter: Matter, shape| Spot { at, radius, matter: matter * share, shape };
+                spots.extend([NUCLEOLUS, DISPLACED].map(|matter| spot(matter, SpotShape::Bump)));
+                spots.push(spot(AROUND_NUCLEOLUS, SpotShape::Ring));
             }
         }
     }

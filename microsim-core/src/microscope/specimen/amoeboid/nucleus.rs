@@ -19,6 +19,13 @@ const CHROMATIN: [f32; 2] = [-0.45, 1.0];
 /// Strength of patches of denser chromatin in that, of noise whose lattice is turned and wider.
 const PATCHES: f32 = 0.55;
 const OTHER_LATTICE: Vec2 = Vec2::new(0.27, 0.36);
+/// How much denser chromatin is at the rim of the nucleus, and the width of that band, micrometres.
+const CONDENSED: f32 = 0.55;
+const CONDENSED_WIDTH: f32 = 0.45;
+/// Pale gaps between its finest threads: their lattice, how strong they are, and the noise from and to which they open.
+const FINE_LATTICE: Vec2 = Vec2::new(2.1, 1.4);
+const GAPS: f32 = 0.5;
+const OPEN: [f32; 2] = [0.25, 0.85];
 /// Strength of clumps of chromatin relative to the texture of a nucleus.
 const CLUMPS: f32 = 1.8;
 /// Share of that by which they delay light: it is for the dye that they differ most.
@@ -41,6 +48,11 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("CHROMATIN", &CHROMATIN),
         ("PATCHES", &[PATCHES]),
         ("OTHER_LATTICE", &[OTHER_LATTICE.x, OTHER_LATTICE.y]),
+        ("CONDENSED", &[CONDENSED]),
+        ("CONDENSED_WIDTH", &[CONDENSED_WIDTH]),
+        ("FINE_LATTICE", &[FINE_LATTICE.x, FINE_LATTICE.y]),
+        ("GAPS", &[GAPS]),
+        ("OPEN", &OPEN),
         ("CLUMPS", &[CLUMPS]),
         ("CLUMPS_DELAY", &[CLUMPS_DELAY]),
         ("ENVELOPE", &[ENVELOPE]),
@@ -108,38 +120,46 @@ impl AmoeboidBody {
 
     /// Its matter at a place.
     pub(super) fn nucleus_matter(&self, place: Vec2, softness: f32) -> Matter {
-        let nucleus = self.nucleus(place, softness);
+        let [nucleus, rim] = self.nucleus_and_rim(place, softness);
         if nucleus <= 0.0 {
             return Matter::NONE;
         }
         let look = &self.look.nucleus;
         let at = self.turned(place) / look.texture.size;
         let patches = PATCHES * octaves(rotate(at, OTHER_LATTICE), 2, self.seed ^ SALTS[4]);
-        let noise = octaves(at, 2, self.seed ^ SALTS[2]).abs() + patches;
-        let clumps = CLUMPS * look.texture.amount * (1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - 1.0);
+        let noise = octaves(at, 2, self.seed ^ SALTS[2]).abs() + patches + CONDENSED * rim;
+        let gaps = GAPS * smoothstep(OPEN[0], OPEN[1], octaves(rotate(at, FINE_LATTICE), 1, self.seed ^ SALTS[0]));
+        let dense = 1.60 * smoothstep(CHROMATIN[0], CHROMATIN[1], noise) - gaps;
+        let clumps = CLUMPS * look.texture.amount * (dense - 0.95);
         let matter = look.matter * nucleus;
         Matter { phase: matter.phase * (1.0 + CLUMPS_DELAY * clumps), ..matter * (1.0 + clumps) }
     }
 
     /// How much a place belongs to the nucleus, 0 to 1: the union of the lobes, with necks between neighbours.
     pub(super) fn nucleus(&self, place: Vec2, softness: f32) -> f32 {
+        self.nucleus_and_rim(place, softness)[0]
+    }
+
+    /// The same, and how much it belongs to its rim.
+    fn nucleus_and_rim(&self, place: Vec2, softness: f32) -> [f32; 2] {
         let from_centre = self.turned(place);
         let bent = self.look.nucleus.bent;
         if self.lobes.iter().all(|&(at, radius)| (place - at).length() > radius + (bent + NECK) * self.radius + 0.6) {
-            return 0.0;
+            return [0.0; 2];
         }
         let bend = |salt: u32| octaves(from_centre / (BENDS * self.radius), 1, self.seed ^ salt);
         let bend = Vec2::new(bend(SALTS[4]), bend(SALTS[3])) * (bent * self.radius);
         let there = place + rotate(bend, self.turn());
         let inside = |&(at, radius): &(Vec2, f32)| radius - (there - at).length();
         let depth = self.lobes.iter().map(inside).reduce(|a, b| united(a, b, NECK * self.radius));
-        let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return 0.0 };
+        let Some(depth) = depth.filter(|&depth| depth > -2.0 * softness - 0.3) else { return [0.0; 2] };
         let uneven = octaves(from_centre / (0.2 * self.radius), 3, self.seed ^ SALTS[4]);
         let edge = larger(softness, NUCLEUS_EDGE);
         let depth = depth + NUCLEUS_UNEVEN * self.radius * uneven;
         let envelope = ENVELOPE * larger(1.0 + uneven, 0.0);
         let thickness = mix(NUCLEUS_THIN, 1.0, rise(depth / NUCLEUS_RIM));
-        smoothstep(-edge, edge, depth) * (thickness + envelope * bell((depth - 0.2) / 0.25))
+        let rim = bell((depth - 0.3) / CONDENSED_WIDTH) * (1.0 + uneven);
+        [smoothstep(-edge, edge, depth) * (thickness + envelope * bell((depth - 0.2) / 0.25)), rim]
     }
 }
 
@@ -149,4 +169,52 @@ fn narrowest(outline: &[Vec2]) -> Option<(usize, usize)> {
     let pairs = (0..count).flat_map(|i| (i + count / 4..count.min(i + 3 * count / 4)).map(move |j| (i, j)));
     let apart = |(i, j): (usize, usize)| (outline[i] - outline[j]).length_squared();
     pairs.min_by(|&a, &b| apart(a).total_cmp(&apart(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::look::ImageLook;
+    use crate::{AmoeboidCellSpec, Placement, World, WorldConfig};
+
+    /// A neutrophil of some seed.
+    fn neutrophil(seed: u32) -> AmoeboidBody {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
+        let cell = world.view().organism(id).unwrap();
+        let ImageLook::Amoeboid(look_of) = crate::organism::look(cell.kind()).image else { panic!("it crawls") };
+        AmoeboidBody::of(cell, look_of(0.1), [1, seed], 0.0).unwrap()
+    }
+
+    #[test]
+    fn chromatin_is_condensed_at_the_rim() {
+        let (mut rim, mut middle) = ([0.0, 0.0], [0.0, 0.0]);
+        for seed in 0..6 {
+            let body = neutrophil(seed);
+            for k in 0..200 * 200 {
+                let place = body.centre + 0.12 * (Vec2::new((k % 200) as f32, (k / 200) as f32) - 100.0);
+                let [share, at_rim] = body.nucleus_and_rim(place, 0.05);
+                let dense = body.nucleus_matter(place, 0.05).nucleus / share;
+                let sum = if at_rim > 0.6 { &mut rim } else { &mut middle };
+                if share > 0.5 && !(0.02..=0.6).contains(&at_rim) {
+                    *sum = [sum[0] + dense, sum[1] + 1.0];
+                }
+            }
+        }
+        let [rim, middle] = [rim, middle].map(|[sum, count]| sum / count);
+        assert!(rim > 1.1 * middle, "{rim} {middle}");
+    }
+
+    #[test]
+    fn filaments_join_neighbouring_lobes() {
+        for seed in 0..6 {
+            let body = neutrophil(seed);
+            let filaments = body.filaments();
+            let parts = filaments.len() / (body.lobes.len() - 1);
+            for (pair, filament) in body.lobes.windows(2).zip(filaments.chunks(parts)) {
+                assert_eq!(filament[0].from, pair[0].0);
+                assert!((filament[parts - 1].to - pair[1].0).length() < 0.5 * pair[1].1, "{seed}");
+            }
+        }
+    }
 }

@@ -20,6 +20,11 @@ const PROCESS_POINTS: usize = 4;
 const MITOCHONDRION: f32 = 0.13;
 const MITOCHONDRION_POINTS: usize = 4;
 const WRITHING: f32 = 0.15;
+/// Half the width of the thread that holds two lobes of a nucleus together, micrometres, and its points.
+const FILAMENT: f32 = 0.20;
+const FILAMENT_POINTS: usize = 5;
+/// Points of a retraction fibre.
+const FIBRE_POINTS: usize = 5;
 
 impl AmoeboidBody {
     /// Retraction fibres, which the tail leaves on the glass, and all other threads.
@@ -29,11 +34,14 @@ impl AmoeboidBody {
         let tail = self.field.pushed_inside(self.centre - direction * behind, 0.1);
         let fibre = |_| {
             let direction = rotate(-direction, unit_vector(rng.range([-0.45, 0.45])));
-            let length = rng.range([2.0, 4.0]) * strength;
+            let length = 2.2 * libm::expf(0.5 * rng.normal()) * strength;
             let matter = Matter { cytoplasm: 0.10, ..Matter::phase(0.20) } * strength;
-            Thread { from: tail, to: tail + direction * length, radius: 0.09, matter, peak: 0.0 }
+            let step = direction * (length / (FIBRE_POINTS - 1) as f32);
+            let points: [Vec2; FIBRE_POINTS] = walk(tail, step, unit_vector(0.16 * rng.normal()));
+            Thread::curve(&points, |_| 0.09, matter).collect::<Vec<_>>()
         };
-        let mut threads: Vec<Thread> = (0..self.look.fibres).map(fibre).collect();
+        let mut threads: Vec<Thread> = (0..self.look.fibres).flat_map(fibre).collect();
+        threads.extend(self.filaments());
         (0..self.look.processes).for_each(|k| self.process(k, &mut threads));
         let carriers = organism.particles().filter(|particle| particle.role == Role::Cytoplasm);
         carriers.for_each(|carrier| self.mitochondria_on(&carrier, &mut threads));
@@ -47,7 +55,7 @@ impl AmoeboidBody {
         let expected = self.look.mitochondria * 0.866 * spacing * spacing;
         for _ in 0..((expected + rng.unit()) as u32).min(8) {
             let at = carrier.position + Vec2::new(rng.range([-0.5, 0.5]), rng.range([-0.5, 0.5])) * spacing;
-            let length = self.look.longest_mitochondrion * (0.25 + 0.75 * rng.unit());
+            let length = self.look.longest_mitochondrion * libm::expf(0.6 * rng.normal() - 0.8);
             let turned = wobble(self.time * WRITHING, rng.bits()) + TAU * rng.unit();
             let (bend, threshold, dense) = (unit_vector(0.5 * rng.normal()), rng.unit(), rng.range([0.5, 1.2]));
             let room = smoothstep(0.2, 0.7, self.field.at(at) - 0.5 * length - 0.5 * self.look.ectoplasm);
@@ -56,14 +64,9 @@ impl AmoeboidBody {
             if share < 0.02 {
                 continue;
             }
-            let mut step = rotate(Vec2::X, unit_vector(turned)) * (length / (MITOCHONDRION_POINTS - 1) as f32);
-            let mut place = at - step * (0.5 * (MITOCHONDRION_POINTS - 1) as f32);
-            let points: [Vec2; MITOCHONDRION_POINTS] = std::array::from_fn(|_| {
-                let point = place;
-                place += step;
-                step = rotate(step, bend);
-                point
-            });
+            let step = unit_vector(turned) * (length / (MITOCHONDRION_POINTS - 1) as f32);
+            let first = at - step * (0.5 * (MITOCHONDRION_POINTS - 1) as f32);
+            let points: [Vec2; MITOCHONDRION_POINTS] = walk(first, step, bend);
             let matter = Matter { cytoplasm: 0.45, ..Matter::phase(0.14) } * (share * dense);
             threads.extend(Thread::curve(&points, |k| MITOCHONDRION / larger(k as f32, 1.0).sqrt(), matter));
         }
@@ -78,18 +81,37 @@ impl AmoeboidBody {
         let grown = unit_vector(TAU * 0.5 * cycle.fract()).y;
         let length = self.look.longest_process * rng.unit() * grown;
         let Some(edge) = self.field.crossing(self.centre, direction, 0.05 * self.radius) else { return };
-        let mut at = self.centre + direction * (edge - 0.5);
-        let mut step =
-            rotate(direction, unit_vector(0.4 * rng.normal())) * ((length + 0.5) / (PROCESS_POINTS - 1) as f32);
+        let at = self.centre + direction * (edge - 0.5);
+        let step = rotate(direction, unit_vector(0.4 * rng.normal())) * ((length + 0.5) / (PROCESS_POINTS - 1) as f32);
         let bend = unit_vector(0.35 * rng.normal());
-        let points: [Vec2; PROCESS_POINTS] = std::array::from_fn(|_| {
-            let point = at;
-            at += step;
-            step = rotate(step, bend);
-            point
-        });
+        let points: [Vec2; PROCESS_POINTS] = walk(at, step, bend);
         let matter = Matter { cytoplasm: 0.12, ..Matter::phase(0.20) } * smoothstep(0.1, 0.6, length);
         let radius = |k: usize| PROCESS / (1 + k) as f32;
         threads.extend(Thread::curve(&points, radius, matter));
     }
+    /// Threads of chromatin between neighbouring lobes of a nucleus that does not part.
+    pub(super) fn filaments(&self) -> Vec<Thread> {
+        let mut rng = HashRng::new(self.nucleus_seed() ^ 0xf17a);
+        let between = |pair: &[(Vec2, f32)]| {
+            let step = (pair[1].0 - pair[0].0) / (FILAMENT_POINTS - 1) as f32;
+            let (half, bend) = (0.5 * (FILAMENT_POINTS - 2) as f32, 0.25 * rng.normal());
+            // It ends where it would have without the bend.
+            let step = rotate(step, unit_vector(-bend * half));
+            let points: [Vec2; FILAMENT_POINTS] = walk(pair[0].0, step, unit_vector(bend));
+            Thread::curve(&points, |_| FILAMENT, self.look.nucleus.matter * 0.7).collect::<Vec<_>>()
+        };
+        let lobes = if self.look.nucleus.lobes[0] == 1 { &[] } else { &self.lobes[..] };
+        lobes.windows(2).flat_map(between).collect()
+    }
+}
+
+/// Places on a way whose every step is turned against the one before.
+fn walk<const N: usize>(from: Vec2, step: Vec2, turn: Vec2) -> [Vec2; N] {
+    let (mut at, mut step) = (from, step);
+    std::array::from_fn(|_| {
+        let place = at;
+        at += step;
+        step = rotate(step, turn);
+        place
+    })
 }

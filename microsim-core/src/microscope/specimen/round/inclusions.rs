@@ -39,23 +39,26 @@ impl RoundBody {
         (0..count).flat_map(spot).collect()
     }
 
-    /// Where a red cell that dried let go of its haemoglobin, which lies around the pit.
-    pub(super) fn drying_pits(&self, rng: &mut HashRng) -> Vec<Spot> {
-        let count = if rng.unit() < self.pitted { 1 + rng.bits() % 4 } else { 0 };
-        let mut at = self.place(rng.direction(), 0.6 * rng.unit());
+    /// Drops and bubbles in a red cell that dried: a few together, long or round, of which some run into each other; they lie
+    /// in paler surroundings, deep ones bright and shallow ones dark.
+    pub(super) fn drying_drops(&self, rng: &mut HashRng) -> Vec<Spot> {
+        let many = rng.unit();
+        let count = if rng.unit() < self.smear.pitted { 1 + (4.0 * many * many) as u32 } else { 0 };
+        let mut at = self.place(rng.direction(), 0.8 * rng.unit().sqrt());
         let along = rng.direction();
-        let pit = |_| {
-            let radius = 0.24 * libm::expf(0.40 * rng.normal());
-            let dense = rng.range([0.3, 1.3]);
-            let clear = Matter { haemoglobin: -1.2 * dense, nucleus: -0.12 * dense, ..Matter::phase(-0.10) };
-            let around = Matter { haemoglobin: 0.6 * dense, nucleus: 0.4 * dense, ..Matter::NONE };
-            let ring = Spot { at, radius: 0.9 * radius, matter: around, shape: SpotShape::Ring };
-            let pit = [Spot { at, radius, matter: clear, shape: SpotShape::Bump }, ring];
-            // Some lie in a row or run into each other.
-            at += (rng.direction() + along) * radius;
-            pit
+        let drop = |_| {
+            let radius = 0.36 * self.smear.drop_size * libm::expf(0.38 * rng.normal());
+            let deep = self.smear.drop_depth * rng.range([0.35, 1.2]);
+            let clear = Matter { haemoglobin: -0.3 * deep, ..Matter::NONE };
+            let lack = Matter { haemoglobin: -2.2 * deep, nucleus: 0.10, ..Matter::phase(-0.05) };
+            let long = along * (radius * rng.range([0.0, 0.55]));
+            let around = Spot { at, radius: 2.1 * radius, matter: clear, shape: SpotShape::Bump };
+            let half = |at| Spot { at, radius, matter: lack * 0.7, shape: SpotShape::Bump };
+            let drop = [around, half(at + long), half(at - long)];
+            at += (rng.direction() * 1.6 + along * rng.range([0.5, 3.0])) * radius;
+            drop
         };
-        (0..count).flat_map(pit).collect()
+        (0..count).flat_map(drop).collect()
     }
 }
 
@@ -68,4 +71,29 @@ fn grains(spot: Spot, [fewest, most]: [u32; 2], rng: &mut HashRng) -> Vec<Spot> 
         Spot { at, radius, matter: spot.matter * rng.range([0.1, 0.35]), shape: SpotShape::Bump }
     };
     (0..count).map(grain).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::look::ImageLook;
+    use crate::{Placement, RedCellSpec, World, WorldConfig};
+
+    #[test]
+    fn drops_are_caught_in_many_cells_of_some_slides_and_in_hardly_any_of_others() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        let id = world.spawn(&RedCellSpec::default().into(), Placement::at(60.0, 40.0)).unwrap();
+        let cell = world.view().organism(id).unwrap();
+        let ImageLook::Round(look) = crate::organism::look(cell.kind()).image else { panic!("red cells are round") };
+        let has_drops = |slide: u32, seed: u32| {
+            let body = RoundBody::of(cell, look, [slide, seed]).unwrap();
+            let drops = body.drying_drops(&mut HashRng::new(seed));
+            drops.iter().any(|spot| spot.matter.haemoglobin < -0.3)
+        };
+        let cells = |slide: u32| (0..60).filter(|&seed| has_drops(slide, seed)).count();
+        let slides: Vec<usize> = (0..30).map(cells).collect();
+        let clean = slides.iter().filter(|count| **count <= 4).count();
+        let full = slides.iter().filter(|count| **count >= 10).count();
+        assert!((6..20).contains(&clean) && (8..25).contains(&full), "{slides:?}");
+    }
 }
