@@ -117,7 +117,7 @@ hint-task = { $task } Drž { $what } a lez.
 hint-begin = Pak začne běžet čas.
 hint-tempo = { $slower }: pomaleji. { $faster }: rychleji. { $stop }: zastavit.
 hint-crawl = Drž { $what } a lez.
-hint-eat = Tlač se čelem na potravu a zůstaň na ní.
+hint-eat = Lez proti potravě, dokud není uvnitř.
 hint-last = Počítá se jen to, co je strávené včas.
 hint-two-players = Hráč 1: drž levé tlačítko myši a lez. Hráč 2: šipky nebo gamepad.
 hint-taken = Pohlcuje tě větší améba: nemůžeš se hýbat a ona tě stráví.
@@ -157,7 +157,7 @@ missed-undigested = { $count ->
     [many] { $count } sousta uvnitř nebylo stráveno: počítá se jen to, co je strávené.
    *[other] { $count } soust uvnitř nebylo stráveno: počítá se jen to, co je strávené.
 }
-missed-all = Nic nebylo pohlceno: lez čelem proti potravě a zůstaň na ní.
+missed-all = Nic nebylo pohlceno: lez proti potravě, dokud není uvnitř.
 missed-rigid = Žádný nálevník: pohlť některého pod zelenou šipkou.
 missed-rigid-most = Žádný nálevník, a ti se počítají nejvíc. Rosti na drobné potravě, dokud nad některým není zelená šipka.
 goal-better = Další cíl: víc než { $points }

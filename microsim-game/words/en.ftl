@@ -115,7 +115,7 @@ hint-task = { $task } Hold { $what } to crawl.
 hint-begin = Time starts then.
 hint-tempo = { $slower }: slower. { $faster }: faster. { $stop }: stop.
 hint-crawl = Hold { $what } to crawl.
-hint-eat = Push your front against food, and stay on it.
+hint-eat = Crawl against food, and go on until it is inside.
 hint-last = Only what you digest in time counts.
 hint-two-players = Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.
 hint-taken = A larger amoeba is taking you in. You cannot move, and it will digest you.
@@ -151,7 +151,7 @@ missed-undigested = { $count ->
     [one] One thing was still inside: only what you digest counts.
    *[other] { $count } things were still inside: only what you digest counts.
 }
-missed-all = You took nothing in. Push your front against food, and stay on it.
+missed-all = You took nothing in. Crawl against food, and go on until it is inside.
 missed-rigid = You took in no ciliate. Take one under a green arrow.
 missed-rigid-most = You took in no ciliate, and they count most. Grow on small food until a green arrow is over one.
 goal-better = Next: more than { $points }

@@ -3,6 +3,7 @@
 use crate::camera::Camera;
 use crate::hud::marks;
 use crate::input::Input;
+use crate::rules::aim::aimed;
 use crate::rules::brake::Brake;
 use crate::rules::hint::{Hints, PreyTarget};
 use crate::rules::lesson::FirstDeed;
@@ -48,17 +49,19 @@ impl Hands {
     ) -> [Option<Vec2>; 2] {
         match two {
             None | Some(TwoPlayers::Bot) => [self.goal(input, camera, round, 0), None],
-            Some(_) => [self.by_mouse(input, camera), by_keys(input, round, 1)],
+            Some(_) => [self.by_mouse(input, camera, round, 0), by_keys(input, round, 1)],
         }
     }
 
     /// Where one player steers to that has mouse and arrow keys.
     pub(super) fn goal(&self, input: &Input, camera: &Camera, round: &Round, player: usize) -> Option<Vec2> {
-        by_keys(input, round, player).or(self.by_mouse(input, camera))
+        by_keys(input, round, player).or(self.by_mouse(input, camera, round, player))
     }
 
-    fn by_mouse(&self, input: &Input, camera: &Camera) -> Option<Vec2> {
-        self.is_crawling.then(|| camera.to_room(input.cursor))
+    fn by_mouse(&self, input: &Input, camera: &Camera, round: &Round, player: usize) -> Option<Vec2> {
+        let (goal, view) = (self.is_crawling.then(|| camera.to_room(input.cursor))?, round.world().view());
+        let cell = round.players().nth(player).and_then(|cell| view.organism(cell));
+        Some(cell.map_or(goal, |cell| aimed(view, cell, goal)))
     }
 
     /// What the cell of a player does in a step.
