@@ -54,6 +54,11 @@ impl Pulses {
         self.swelling.get_or_insert(0.0);
     }
 
+    /// The own cell, at a point, cannot do what it is asked for now: a dim ring in place of words.
+    pub fn refuse(&mut self, at: Vec2) {
+        self.rings.push(Pulse { at, radii: [1.3, 1.3], colour: fade(HALO, 0.5), age: 0.0 });
+    }
+
     /// A cell is gone that was at a point.
     pub fn lose(&mut self, at: Vec2) {
         self.rings.push(Pulse { at, radii: [3.0, 0.2], colour: ALERT, age: 0.0 });
@@ -81,7 +86,7 @@ impl Pulses {
             let radius = unit * style.time.map_or(0.5 * (from + to), |_| from + (to - from) * share);
             let at = style.camera.to_screen(ring.at);
             pen.canvas().arc(at, radius, 0.22 * unit, 1.0, fade(INK, 0.7 * (1.0 - share)));
-            pen.canvas().arc(at, radius, 0.11 * unit, 1.0, fade(ring.colour, 1.0 - share));
+            pen.canvas().arc(at, radius, 0.11 * unit, 1.0, fade(ring.colour, ring.colour.a * (1.0 - share)));
         }
     }
 }
