@@ -120,6 +120,7 @@ hint-tempo = { $slower }: pomaleji. { $faster }: rychleji. { $stop }: zastavit.
 hint-crawl = Drž { $what } a lez.
 hint-eat = Lez proti potravě, dokud není uvnitř.
 hint-last = Počítá se jen to, co je strávené včas.
+hint-place = Počítá se střed buňky: dostaň na místo křížek.
 hint-two-players = Hráč 1: drž levé tlačítko myši a lez. Hráč 2: šipky nebo gamepad.
 hint-taken = Pohlcuje tě větší améba: nemůžeš se hýbat a ona tě stráví.
 hint-chain-clock = Bez potravy se zmenšuješ a zahyneš hladem: hodiny ukazují, jak dlouho ti vystačí.

@@ -118,6 +118,7 @@ hint-tempo = { $slower }: slower. { $faster }: faster. { $stop }: stop.
 hint-crawl = Hold { $what } to crawl.
 hint-eat = Crawl against food, and go on until it is inside.
 hint-last = Only what you digest in time counts.
+hint-place = The middle of your cell counts: bring the cross into the place.
 hint-two-players = Player 1: hold the left mouse button to crawl. Player 2: arrow keys or a gamepad.
 hint-taken = A larger amoeba is taking you in. You cannot move, and it will digest you.
 hint-chain-clock = Without food you shrink and starve. The clock shows how long you can last.
