@@ -441,7 +441,7 @@ sandbox-legend =
     jantarová: dotyk
 sandbox-stopped = Čas stojí: nejdřív ho pusť dál.
 sandbox-no-undo = Není co vzít zpět.
-sandbox-nobody = Není koho řídit: nejdřív někoho sleduj.
+sandbox-nobody = Nikoho nesleduješ: klikni na buňku, kterou chceš sledovat.
 sandbox-immobile = Sledovaný organismus neumí lézt.
 sandbox-nothing = Tady nic není.
 sandbox-short = Táhni od jednoho konce k druhému.

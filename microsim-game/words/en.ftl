@@ -409,7 +409,7 @@ sandbox-legend =
     amber: contact
 sandbox-stopped = Time is stopped. Let it go on first.
 sandbox-no-undo = There is nothing to undo.
-sandbox-nobody = You follow nobody: follow somebody first.
+sandbox-nobody = You follow nobody: click on a cell to follow it.
 sandbox-immobile = What you follow cannot crawl.
 sandbox-nothing = There is nothing here.
 sandbox-short = Drag from one end to the other.
