@@ -38,6 +38,7 @@ quit-stay = Zůstat
 
 settings-language = Jazyk
 settings-optics = Optika
+settings-drawn-about = *: teď jen kresba, protože optiku tento počítač nestíhá. Jinak: Kvalita.
 settings-quality = Kvalita
 settings-text-size = Velikost písma
 settings-motion = Méně pohybu

@@ -36,6 +36,7 @@ quit-stay = Stay
 
 settings-language = Language
 settings-optics = Optics
+settings-drawn-about = *: drawn for now, because this computer is slow with the optics. Quality says otherwise.
 settings-quality = Quality
 settings-text-size = Text size
 settings-motion = Reduced motion
