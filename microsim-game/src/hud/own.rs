@@ -57,7 +57,7 @@ pub fn draw_lunge(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, lung
         return;
     };
     // What it costs.
-    pen.label(at - Vec2::new(0.0, radius + unit), TextSize::Body, Align::Centre, ALERT, "-");
+    pen.label(at - Vec2::new(0.0, radius + 1.4 * unit), TextSize::Large, Align::Centre, ALERT, "-");
     for side in [-0.5, 0.0, 0.5] {
         let from = at - radius * (1.2 * ahead - side * ahead.perp());
         let to = from - radius * (1.0 - side.abs()) * ahead;

@@ -105,6 +105,21 @@ mod tests {
     }
 
     #[test]
+    fn what_is_refused_has_a_dimmer_ring_than_what_is_done() {
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let strongest = |begin: fn(&mut Pulses, Vec2)| {
+            let (mut pulses, mut pen) = (Pulses::default(), Pen::bare());
+            begin(&mut pulses, Vec2::new(80.0, 45.0));
+            pulses.draw(&mut pen, &style);
+            let light = pen.canvas().corners().filter(|(.., colour)| colour[0] > 128);
+            light.map(|(.., colour)| colour[3]).max().unwrap_or_default()
+        };
+        let [refused, called] = [strongest(Pulses::refuse), strongest(Pulses::call)];
+        assert!(refused > 0 && f32::from(refused) < 0.6 * f32::from(called), "{refused} {called}");
+    }
+
+    #[test]
     fn a_ring_closes_where_one_crawls_to_and_opens_around_what_was_taken_in() {
         for (is_taken, grows) in [(false, false), (true, true)] {
             let sizes = |time| {
