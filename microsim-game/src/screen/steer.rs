@@ -156,4 +156,23 @@ mod tests {
         let [first, second] = goals(None);
         assert!(near(first, right(at[0])) && second.is_none(), "{first:?} {second:?}");
     }
+
+    #[test]
+    fn the_mouse_on_food_steers_past_it_and_arrow_keys_go_where_they_point() {
+        let text = "schema = 1\nname = \"room\"\n[world]\nsize = [160.0, 90.0]\n[amoeboid_cell.cell]\nradii = [7.0, 7.0]\n\
+                    [agar.pellet]\nradius = 1.5\n[[spawn]]\nof = \"cell\"\nplayer = true\nat = [40.0, 45.0]\n\
+                    [[spawn]]\nof = \"pellet\"\nat = [49.0, 45.0]\n[game]\ntime = 60.0\n";
+        let round = Round::new(&Scenario::parse(text, &[]).unwrap()).unwrap();
+        let camera = Camera::whole(round.world().config().size, Vec2::new(640.0, 360.0));
+        let hands = Hands { is_crawling: true, ..Hands::default() };
+        let goal = |at: Vec2| {
+            let input = Input { cursor: camera.to_screen(at), ..Input::default() };
+            hands.goal(&input, &camera, &round, 0).unwrap()
+        };
+        let past = goal(Vec2::new(49.0, 45.0)).x;
+        assert!(past > 50.0, "past the food: {past}");
+        assert!(goal(Vec2::new(30.0, 45.0)).distance(Vec2::new(30.0, 45.0)) < 0.5, "into open water");
+        let input = Input { steer: -Vec2::X, ..Input::default() };
+        assert!((hands.goal(&input, &camera, &round, 0).unwrap().x - 10.0).abs() < 0.5);
+    }
 }
