@@ -10,6 +10,7 @@ use macroquad::input::{
 };
 use macroquad::miniquad;
 use microsim_core::glam::Vec2;
+use std::collections::VecDeque;
 
 /// Reads mouse and keyboard of the open window, and gamepads.
 #[derive(Debug)]
@@ -19,6 +20,7 @@ pub struct Device {
     cursor: Vec2,
     gamepads: platform::Gamepads,
     hand: Hand,
+    steps: Steps,
 }
 
 impl Device {
@@ -26,7 +28,13 @@ impl Device {
     #[must_use]
     pub fn new() -> Self {
         let (gamepads, hand) = (platform::Gamepads::default(), Hand::default());
-        Self { subscriber: utils::register_input_subscriber(), cursor: Vec2::ZERO, gamepads, hand }
+        Self {
+            subscriber: utils::register_input_subscriber(),
+            cursor: Vec2::ZERO,
+            gamepads,
+            hand,
+            steps: Steps::default(),
+        }
     }
 
     /// What they say in this frame, in a scene or in a menu.
@@ -37,8 +45,7 @@ impl Device {
         let buttons = platform::screen_buttons();
         let is_in = |names: &[String], name: &str| names.iter().any(|other| other == name);
         let button_step = Move::ALL.into_iter().find(|(_, name)| is_in(&buttons.pressed, name)).map(|(step, _)| step);
-        let mut focus = Focus::default();
-        utils::repeat_all_miniquad_input(&mut focus, self.subscriber);
+        utils::repeat_all_miniquad_input(&mut self.steps, self.subscriber);
         let mut input = Input {
             cursor,
             has_moved,
@@ -51,12 +58,12 @@ impl Device {
             pressed: all()
                 .filter(|&action| is_key_pressed(keys.of(action)) || is_in(&buttons.pressed, action.name()))
                 .collect(),
-            step: MOVES.into_iter().find(|(key, _)| is_key_pressed(*key)).map(|(_, step)| step).or(button_step),
+            step: self.steps.next().or(button_step),
             item: buttons.item,
             place: None,
             key: get_last_key_pressed(),
             dropped: platform::dropped_files(),
-            has_lost_focus: focus.is_lost,
+            has_lost_focus: std::mem::take(&mut self.steps.has_lost_focus),
         };
         if is_mouse_button_pressed(MouseButton::Right) {
             input.pressed.push(Action::Lunge);
@@ -73,15 +80,20 @@ impl Default for Device {
 }
 
 /// Keys that move through menus.
-const MOVES: [(KeyCode, Move); 7] = [
+const MOVES: [(KeyCode, Move); 9] = [
     (KeyCode::Up, Move::Up),
     (KeyCode::Down, Move::Down),
     (KeyCode::Left, Move::Left),
     (KeyCode::Right, Move::Right),
+    (KeyCode::Home, Move::First),
+    (KeyCode::End, Move::Last),
     (KeyCode::Enter, Move::Confirm),
     (KeyCode::KpEnter, Move::Confirm),
     (KeyCode::Escape, Move::Back),
 ];
+
+/// How many moves wait for their frames at most.
+const MOST_WAITING: usize = 8;
 
 /// Where the arrow keys point that are down, and letters where they steer.
 fn steer(is_down: impl Fn(KeyCode) -> bool, by_letters: bool) -> Vec2 {
@@ -91,25 +103,55 @@ fn steer(is_down: impl Fn(KeyCode) -> bool, by_letters: bool) -> Vec2 {
     (0..ways.len()).filter(|&k| is_held(k)).map(|k| ways[k]).sum::<Vec2>().normalize_or_zero()
 }
 
-/// Listens for the loss of the keyboard, which miniquad reports as being minimised.
+/// Moves by keys that went down, in their order: each frame takes one, so that none is lost of those that come within a frame. Listens
+/// for the loss of the keyboard, too, which miniquad reports as being minimised.
 #[derive(Debug, Default)]
-struct Focus {
-    is_lost: bool,
+struct Steps {
+    waiting: VecDeque<Move>,
+    has_lost_focus: bool,
 }
 
-impl miniquad::EventHandler for Focus {
+impl Steps {
+    fn next(&mut self) -> Option<Move> {
+        self.waiting.pop_front()
+    }
+}
+
+impl miniquad::EventHandler for Steps {
     fn update(&mut self) {}
 
     fn draw(&mut self) {}
 
+    fn key_down_event(&mut self, key: KeyCode, _: miniquad::KeyMods, is_repeated: bool) {
+        let step = MOVES.into_iter().find(|(known, _)| *known == key && !is_repeated);
+        self.waiting.extend(step.map(|(_, step)| step).filter(|_| self.waiting.len() < MOST_WAITING));
+    }
+
     fn window_minimized_event(&mut self) {
-        self.is_lost = true;
+        self.has_lost_focus = true;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use macroquad::miniquad::EventHandler;
+
+    #[test]
+    fn of_keys_that_go_down_within_a_frame_each_is_a_move_in_a_frame_of_its_own() {
+        let mut steps = Steps::default();
+        for (key, is_repeated) in [
+            (KeyCode::Down, false),
+            (KeyCode::Down, false),
+            (KeyCode::Down, true),
+            (KeyCode::Q, false),
+            (KeyCode::Enter, false),
+        ] {
+            steps.key_down_event(key, miniquad::KeyMods::default(), is_repeated);
+        }
+        let taken: Vec<Option<Move>> = (0..4).map(|_| steps.next()).collect();
+        assert_eq!(taken, [Some(Move::Down), Some(Move::Down), Some(Move::Confirm), None]);
+    }
 
     #[test]
     fn arrow_keys_steer_in_eight_directions_and_opposite_ones_cancel() {

@@ -181,6 +181,13 @@ impl Scenery {
             .then(|| words::text_with(Key::QualityLowered, &[("quality", words::text(QUALITY_STEPS[lower].0).into())]))
     }
 
+    /// Whether this way of looking is drawn for now, because the machine is too slow for it or refuses it.
+    #[must_use]
+    pub fn stands_in(&self, effort: Effort, sight: Sight) -> bool {
+        let is_slow = effort == Effort::Automatic && QUALITY_STEPS[self.step].1.is_none();
+        sight != Sight::Drawn && (is_slow || self.renderer.is_none())
+    }
+
     /// Puts automatic effort back to the best quality.
     pub fn take_heart(&mut self) {
         (self.step, self.slow_time) = (0, 0.0);

@@ -12,6 +12,8 @@ use microsim_core::glam::Vec2;
 
 /// Height that is kept free for the status line and a mark's own label below it, lines of text.
 const BELOW_STATUS: f32 = 4.6;
+/// Distance of an arrow at the upper edge from it, lines of text: below the score and the clock.
+const UNDER_CLOCK: f32 = 3.2;
 /// How many of the cells that are too large, the nearest first, have a number at their box.
 const NUMBERS: usize = 1;
 /// Points that are written large.
@@ -107,9 +109,9 @@ fn draw_no_room(pen: &mut Pen, tip: Vec2, unit: f32) {
 /// An arrow at the edge of the picture that points to something outside.
 pub(super) fn draw_at_edge(pen: &mut Pen, at: Vec2, unit: f32, colour: Color) {
     let middle = 0.5 * pen.screen();
-    // Below the status line, and not quite at the edge.
-    let room = middle - Vec2::new(1.2, 2.4) * unit;
     let offset = at - middle;
+    // Below the status line, and not quite at the edge.
+    let room = middle - Vec2::new(1.2, if offset.y < 0.0 { UNDER_CLOCK } else { 2.4 }) * unit;
     let share = (room / offset.abs().max(Vec2::splat(1.0))).min_element();
     arrow(pen, middle + offset * share.min(1.0), offset.normalize_or_zero(), 0.8 * unit, colour);
 }
@@ -256,6 +258,19 @@ mod tests {
         assert_eq!(arrows(Readiness::TooLarge(0.5), seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, false), 0);
         assert_eq!(arrows(Readiness::NoRoom, seen, true), arrow, "as in the thesis");
+    }
+
+    #[test]
+    fn an_arrow_to_what_is_above_the_picture_stays_below_the_clock() {
+        for x in [0.0, 40.0, 80.0, 150.0, 400.0] {
+            let target = PreyTarget { at: Vec2::new(x, 300.0), ..target(0.0, Readiness::Ready) };
+            let mut pen = drawn_targets(&[target], false);
+            // Its middle, and half its height.
+            let line = pen.line(TextSize::Large);
+            let end = (0.16 + 0.75 + 0.56) * line;
+            let highest = pen.canvas().corners().map(|(at, ..)| at.y).fold(f32::MAX, f32::min);
+            assert!(highest > end, "{highest} of {end}, at {x}");
+        }
     }
 
     #[test]

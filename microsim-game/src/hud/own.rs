@@ -1,7 +1,7 @@
 //! The player's own cell has a rim that no other has, in every way of looking. Cells of several players have numbers.
 
 use super::marks::Style;
-use crate::draw::palette::{HALO, INK, PLAYERS, fade};
+use crate::draw::palette::{ALERT, HALO, INK, PLAYERS, fade};
 use crate::rules::lunge::Lunge;
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
@@ -56,6 +56,8 @@ pub fn draw_lunge(pen: &mut Pen, style: &Style<'_>, cell: OrganismView<'_>, lung
         pen.canvas().arc(at, radius + 0.4 * unit, 0.12 * unit, share, HALO);
         return;
     };
+    // What it costs.
+    pen.label(at - Vec2::new(0.0, radius + 1.4 * unit), TextSize::Large, Align::Centre, ALERT, "-");
     for side in [-0.5, 0.0, 0.5] {
         let from = at - radius * (1.2 * ahead - side * ahead.perp());
         let to = from - radius * (1.0 - side.abs()) * ahead;
@@ -119,12 +121,14 @@ mod tests {
             let cell = round.world().view().organism(round.player()).unwrap();
             let mut pen = Pen::bare();
             draw_lunge(&mut pen, &style, cell, round.lunge_of(0));
-            let from = camera.to_screen(cell.centroid()).x;
-            pen.canvas().corners().map(|(at, ..)| at.x - from).collect::<Vec<f32>>()
+            let from = camera.to_screen(cell.centroid());
+            pen.canvas().corners().map(|(at, ..)| at - from).collect::<Vec<Vec2>>()
         };
         assert!(drawn(60, false).is_empty());
-        let streaks = drawn(20, true);
-        assert!(!streaks.is_empty() && streaks.iter().all(|x| *x < 0.0), "behind: {streaks:?}");
+        let radius = 7.0 * camera.scale();
+        let (price, streaks): (Vec<Vec2>, Vec<Vec2>) = drawn(20, true).into_iter().partition(|at| at.y < -0.8 * radius);
+        assert!(!streaks.is_empty() && streaks.iter().all(|at| at.x < 0.0), "behind: {streaks:?}");
+        assert!(!price.is_empty() && price.iter().all(|at| at.x.abs() < radius), "above: {price:?}");
         let [early, late] = [60, 90].map(|steps| drawn(steps, false).len());
         assert!(0 < early && early < late, "{early} {late}");
         assert!(drawn(60, false).is_empty(), "it can lunge again");

@@ -38,10 +38,22 @@ pub fn draw_places(pen: &mut Pen, style: &Style<'_>, round: &Round, view: View<'
     }
 }
 
-/// Marks the middle of a cell that touches a place by a cross in a ring.
-fn draw_middle(pen: &mut Pen, style: &Style<'_>, [low, high]: [Vec2; 2], cell: OrganismView<'_>) {
+fn touches([low, high]: [Vec2; 2], cell: OrganismView<'_>) -> bool {
     let (from, to) = cell.bounds();
-    if from.cmpgt(high).any() || to.cmplt(low).any() {
+    !(from.cmpgt(high).any() || to.cmplt(low).any())
+}
+
+/// Whether a cell touches a place that it has still to reach with its middle.
+#[must_use]
+pub fn is_before_place(attempt: &Attempt, cell: OrganismView<'_>) -> bool {
+    let open = attempt.goals().filter(|(goal, done)| *done < wanted(goal)).flat_map(|(goal, _)| places(goal));
+    let mut left = open.filter(|place| !is_held(*place, &[cell.centroid()]));
+    left.any(|place| touches(place, cell))
+}
+
+/// Marks the middle of a cell that touches a place by a cross in a ring.
+fn draw_middle(pen: &mut Pen, style: &Style<'_>, place: [Vec2; 2], cell: OrganismView<'_>) {
+    if !touches(place, cell) {
         return;
     }
     let (at, unit) = (style.camera.to_screen(cell.centroid()), pen.line(TextSize::Body));
@@ -120,6 +132,21 @@ mod tests {
         assert!(drawn(20.0, true) > 0, "a frame");
         assert_eq!(drawn(20.0, false), 0);
         assert!(drawn(400.0, true) > drawn(20.0, true), "and an arrow to what is outside");
+    }
+
+    #[test]
+    fn who_touches_a_place_with_the_edge_is_before_it_until_the_middle_is_inside() {
+        let slide = crate::slides::find("first-steps").unwrap().read().unwrap();
+        let attempt = Attempt::new(slide);
+        let [low, high] = attempt.goals().flat_map(|(goal, _)| places(goal)).next().unwrap();
+        let is_before = |at: Vec2| {
+            let mut world = World::new(WorldConfig { size: Vec2::splat(400.0), ..WorldConfig::default() }).unwrap();
+            let cell = world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(at.x, at.y)).unwrap();
+            is_before_place(&attempt, world.view().organism(cell).unwrap())
+        };
+        let middle = 0.5 * (low + high);
+        assert!(is_before(Vec2::new(high.x + 2.0, middle.y)), "the edge is inside");
+        assert!(!is_before(middle) && !is_before(Vec2::splat(350.0)));
     }
 
     #[test]

@@ -54,6 +54,11 @@ impl Pulses {
         self.swelling.get_or_insert(0.0);
     }
 
+    /// The own cell, at a point, cannot do what it is asked for now: a dim ring in place of words.
+    pub fn refuse(&mut self, at: Vec2) {
+        self.rings.push(Pulse { at, radii: [1.3, 1.3], colour: fade(HALO, 0.5), age: 0.0 });
+    }
+
     /// A cell is gone that was at a point.
     pub fn lose(&mut self, at: Vec2) {
         self.rings.push(Pulse { at, radii: [3.0, 0.2], colour: ALERT, age: 0.0 });
@@ -81,7 +86,7 @@ impl Pulses {
             let radius = unit * style.time.map_or(0.5 * (from + to), |_| from + (to - from) * share);
             let at = style.camera.to_screen(ring.at);
             pen.canvas().arc(at, radius, 0.22 * unit, 1.0, fade(INK, 0.7 * (1.0 - share)));
-            pen.canvas().arc(at, radius, 0.11 * unit, 1.0, fade(ring.colour, 1.0 - share));
+            pen.canvas().arc(at, radius, 0.11 * unit, 1.0, fade(ring.colour, ring.colour.a * (1.0 - share)));
         }
     }
 }
@@ -97,6 +102,21 @@ mod tests {
         pulses.draw(&mut pen, &style);
         let at = camera.to_screen(Vec2::new(80.0, 45.0));
         pen.canvas().corners().map(|(corner, ..)| corner.distance(at)).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn what_is_refused_has_a_dimmer_ring_than_what_is_done() {
+        let camera = Camera::whole(Vec2::new(160.0, 90.0), Vec2::new(1280.0, 720.0));
+        let style = Style { camera: &camera, time: None, is_classic: false, key: None };
+        let strongest = |begin: fn(&mut Pulses, Vec2)| {
+            let (mut pulses, mut pen) = (Pulses::default(), Pen::bare());
+            begin(&mut pulses, Vec2::new(80.0, 45.0));
+            pulses.draw(&mut pen, &style);
+            let light = pen.canvas().corners().filter(|(.., colour)| colour[0] > 128);
+            light.map(|(.., colour)| colour[3]).max().unwrap_or_default()
+        };
+        let [refused, called] = [strongest(Pulses::refuse), strongest(Pulses::call)];
+        assert!(refused > 0 && f32::from(refused) < 0.6 * f32::from(called), "{refused} {called}");
     }
 
     #[test]

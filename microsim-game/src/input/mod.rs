@@ -125,6 +125,10 @@ pub enum Move {
     Left,
     /// A greater value.
     Right,
+    /// The first item.
+    First,
+    /// The last one.
+    Last,
     /// Choose it.
     Confirm,
     /// Leave.
@@ -133,11 +137,13 @@ pub enum Move {
 
 impl Move {
     /// All of them, with their names in scripts.
-    pub const ALL: [(Self, &'static str); 6] = [
+    pub const ALL: [(Self, &'static str); 8] = [
         (Self::Up, "up"),
         (Self::Down, "down"),
         (Self::Left, "left"),
         (Self::Right, "right"),
+        (Self::First, "home"),
+        (Self::Last, "end"),
         (Self::Confirm, "enter"),
         (Self::Back, "escape"),
     ];

@@ -28,6 +28,8 @@ pub struct Lessons {
     /// Time for which the player has crawled, s.
     crawled: f32,
     has_eaten: bool,
+    /// What was said that is said once.
+    said: Vec<Key>,
 }
 
 impl Lessons {
@@ -37,6 +39,13 @@ impl Lessons {
             self.crawled += elapsed;
         }
         self.has_eaten |= eats;
+    }
+
+    /// Whether something is to be said that was not said before.
+    pub fn is_first(&mut self, word: Key) -> bool {
+        let is_first = !self.said.contains(&word);
+        self.said.extend(is_first.then_some(word));
+        is_first
     }
 
     /// What the player has not done yet: that is explained until it is done.
@@ -108,6 +117,13 @@ mod tests {
         assert_eq!(told, [Some(Key::LessonReady), None, lunge, None]);
         let mut told = Lessons::default();
         assert_eq!([Some(false), Some(true)].map(|hunted| told.pass(&none, hunted, 0.0, true)), [None, lunge]);
+    }
+
+    #[test]
+    fn what_is_said_once_is_first_once() {
+        let mut lessons = Lessons::default();
+        let said = [Key::HudLungePrice, Key::HudLungeEarly, Key::HudLungePrice].map(|word| lessons.is_first(word));
+        assert_eq!(said, [true, true, false]);
     }
 
     #[test]

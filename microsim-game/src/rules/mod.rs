@@ -6,6 +6,7 @@
 //!                                 \- Replay <-/
 //! ```
 
+pub mod aim;
 pub mod attempt;
 pub mod bot;
 pub mod brake;

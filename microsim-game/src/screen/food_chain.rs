@@ -20,8 +20,9 @@ pub(super) struct FoodChainMenu {
     best: Option<u32>,
     /// The next goal of one who has played.
     goal: Option<String>,
-    /// The best time in today's water, s.
-    today: Option<u32>,
+    /// The best time in today's water, s, and how many lives there were; and the best times of the days before.
+    today: Option<[u32; 2]>,
+    before: [u32; 6],
 }
 
 impl FoodChainMenu {
@@ -32,8 +33,9 @@ impl FoodChainMenu {
         let records = &context.chain_records;
         // One who has not played yet is told the rules.
         let goal = records.best.next_goal(Key::ChainNext).filter(|_| records.best != Feats::default());
-        let today = records.of_day(todays_seed(context));
-        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best, goal, today }
+        let day = todays_seed(context);
+        let (today, before) = (records.of_day(day), records.before(day));
+        Self { page: MenuPage::new(Key::TitleFoodChain, items.into()), best, goal, today, before }
     }
 }
 
@@ -53,7 +55,7 @@ impl Screen for FoodChainMenu {
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
         let goal = self.goal.as_deref().filter(|_| self.page.menu.focus() == 0);
-        self.page.draw_note(&mut context.pen, &note(self.best, goal, self.today));
+        self.page.draw_note(&mut context.pen, &note(self.best, goal, self.today, &self.before));
     }
 
     fn name(&self) -> String {
@@ -61,16 +63,32 @@ impl Screen for FoodChainMenu {
     }
 }
 
-/// What is said of the game and the best time, s; at today's water, to one who has played, how it went there and the next goal.
-fn note(best: Option<u32>, goal: Option<&str>, today: Option<u32>) -> String {
+/// What is said of the game and the best time, s; at today's water, to one who has played, how it went there, or the next goal, and how
+/// it went on the days before.
+fn note(best: Option<u32>, goal: Option<&str>, today: Option<[u32; 2]>, before: &[u32]) -> String {
     let about = words::text(Key::ChainAbout);
+    let days = week(before);
     match (best, goal, today) {
-        (_, Some(goal), Some(time)) => {
-            words::text_with(Key::ChainTodayBest, &[("time", time.into()), ("goal", goal.into())])
+        (_, Some(_), Some([time, lives])) => {
+            let told = [("lives", lives.into()), ("time", time.into()), ("days", (&days).into())];
+            words::text_with(Key::ChainTodayBest, &told)
         }
-        (_, Some(goal), None) => words::text_with(Key::ChainTodayNew, &[("goal", goal.into())]),
+        (_, Some(goal), None) => {
+            words::text_with(Key::ChainTodayNew, &[("goal", goal.into()), ("days", (&days).into())])
+        }
         (None, None, _) => about.to_owned(),
         (Some(time), None, _) => words::text_with(Key::ChainBest, &[("about", about.into()), ("time", time.into())]),
+    }
+}
+
+/// The best times of the days before today, the last day first; empty if there are none.
+fn week(before: &[u32]) -> String {
+    let time = |time: &u32| if *time == 0 { "-".to_owned() } else { time.to_string() };
+    let days = before.iter().map(time).collect::<Vec<_>>().join(", ");
+    if before.iter().all(|time| *time == 0) {
+        String::new()
+    } else {
+        words::text_with(Key::ChainDays, &[("days", (&days).into())])
     }
 }
 
@@ -90,15 +108,17 @@ mod tests {
             words::choose(language, || None);
             let (longest, goal) = (Some(LONGEST as u32), Feats::default().next_goal(Key::ChainNext));
             let notes = [
-                note(None, None, None),
-                note(longest, None, None),
-                note(longest, goal.as_deref(), None),
-                note(longest, goal.as_deref(), longest),
+                note(None, None, None, &[0; 6]),
+                note(longest, None, None, &[0; 6]),
+                note(longest, goal.as_deref(), None, &[LONGEST as u32; 6]),
+                note(longest, goal.as_deref(), Some([LONGEST as u32, 99]), &[LONGEST as u32; 6]),
             ];
             for note in &notes {
                 assert!(is_seen_whole(note), "{note}");
             }
             assert!((1..4).all(|k| notes[k] != notes[k - 1]), "{notes:?}");
+            let told = note(longest, goal.as_deref(), Some([70, 3]), &[0, 45, 0, 0, 0, 0]);
+            assert!(told.contains("70 s") && told.contains('3') && told.contains("-, 45, -"), "{told}");
         }
     }
 }

@@ -1,10 +1,11 @@
 //! The goals of the food chain, each to be reached in one life, and those of the other ways to play; and which are reached.
 
 use super::context::AppContext;
-use super::page::draw_heading;
+use super::page::draw_sheet;
 use super::{Next, Screen};
 use crate::draw::palette::{HALO, INK, READY, fade};
 use crate::input::{Input, Move};
+use crate::rules::food_chain::feats::Feats;
 use crate::rules::two_players::together;
 use crate::slides::SLIDES;
 use crate::store::scores::Score;
@@ -21,15 +22,29 @@ const COLUMN: f32 = 2.15;
 
 /// What goals ask for: what players call it, the most of it so far, and how much each goal asks for.
 type Measure = (Key, u32, &'static [u32]);
+/// What marks a measure that counts in the food chain only.
+const OF_CHAIN: &str = " *";
 
 #[derive(Debug)]
 pub(super) struct Goals {
+    /// Those of the food chain, of which there are so many, come first.
     measures: Vec<Measure>,
+    of_chain: usize,
 }
 
 impl Goals {
     pub(super) fn new(context: &AppContext) -> Self {
-        Self { measures: context.chain_records.best.measures().chain(others(context)).collect() }
+        Self::of(context.chain_records.best, others(context))
+    }
+
+    fn of(best: Feats, others: [Measure; 4]) -> Self {
+        let of_chain = best.measures().count();
+        Self { measures: best.measures().chain(others).collect(), of_chain }
+    }
+
+    /// What a measure is called, with a mark if it counts in the food chain only.
+    fn name_of(&self, k: usize) -> String {
+        format!("{}{}", words::text(self.measures[k].0), if k < self.of_chain { OF_CHAIN } else { "" })
     }
 
     /// How many are reached, and how many there are.
@@ -95,12 +110,12 @@ fn size_of(pen: &Pen, lines: usize) -> (TextSize, f32) {
 fn draw_goals(pen: &mut Pen, goals: &Goals) {
     let [done, all] = goals.count();
     let counts = [("done", (done as u32).into()), ("all", (all as u32).into())];
-    draw_heading(pen, &words::text_with(Key::ChainGoals, &counts));
+    draw_sheet(pen, &words::text_with(Key::GoalsHeading, &counts));
     let (size, step) = size_of(pen, goals.measures.len());
     let (screen, line, columns) = (pen.screen(), pen.line(size), Columns::of(pen, size));
-    for (k, (what, most, wanted)) in goals.measures.iter().enumerate() {
+    for (k, (_, most, wanted)) in goals.measures.iter().enumerate() {
         let y = TOP * screen.y + step * (k as f32 + 0.5);
-        pen.write(Vec2::new(columns.middle - 0.3 * line, y), size, Align::Right, HALO, words::text(*what));
+        pen.write(Vec2::new(columns.middle - 0.3 * line, y), size, Align::Right, HALO, &goals.name_of(k));
         for (k, least) in wanted.iter().enumerate() {
             let (at, text) = (Vec2::new(columns.of_number(k), y), least.to_string());
             let is_reached = most >= least;
@@ -116,18 +131,29 @@ fn draw_goals(pen: &mut Pen, goals: &Goals) {
         pen.write(Vec2::new(end, y), TextSize::Small, Align::Left, fade(HALO, 0.85), &told);
     }
     let at = Vec2::new(0.5 * screen.x, screen.y - 0.7 * pen.line(TextSize::Small));
-    pen.write(at, TextSize::Small, Align::Centre, HALO, words::text(Key::ScoresLeave));
+    pen.write(at, TextSize::Small, Align::Centre, HALO, &legend());
+}
+
+/// What the mark means, and how to leave.
+fn legend() -> String {
+    words::text_with(Key::GoalsChain, &[("leave", words::text(Key::ScoresLeave).into())])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rules::food_chain::feats::Feats;
 
     fn goals(best: Feats, points: u32) -> Goals {
         let others: [Measure; 4] = [Key::GoalPoints, Key::GoalCiliates, Key::GoalStars, Key::GoalTogether]
             .map(|key| (key, points, [500].as_slice()));
-        Goals { measures: best.measures().chain(others).collect() }
+        Goals::of(best, others)
+    }
+
+    #[test]
+    fn goals_of_the_food_chain_are_marked_and_no_others() {
+        let goals = goals(Feats::default(), 0);
+        let marked = (0..goals.measures.len()).filter(|&k| goals.name_of(k).ends_with(OF_CHAIN));
+        assert!(marked.eq(0..6));
     }
 
     #[test]
@@ -143,9 +169,10 @@ mod tests {
                 let (size, step) = size_of(&pen, goals.measures.len());
                 assert!(step >= 0.85 * pen.line(size), "{step}");
                 let columns = Columns::of(&pen, size);
-                for (what, ..) in &goals.measures {
-                    assert!(measure(size, words::text(*what)) + 0.3 * pen.line(size) <= columns.middle, "{what:?}");
+                for name in (0..goals.measures.len()).map(|k| goals.name_of(k)) {
+                    assert!(measure(size, &name) + 0.3 * pen.line(size) <= columns.middle, "{name}");
                 }
+                assert!(measure(TextSize::Small, &legend()) <= screen.x, "{}", legend());
                 assert!(measure(size, "5000") < columns.step);
                 let most = words::text_with(Key::GoalsMost, &[("most", 5854.into())]);
                 assert!(columns.of_number(5) - 0.4 * columns.step + measure(TextSize::Small, &most) <= screen.x);

@@ -99,6 +99,8 @@ pub enum Next {
     Open(Overlay),
     /// A main screen in place of all screens.
     Show(MainScreen),
+    /// An overlay above the title, in place of all screens.
+    Leave(Overlay),
     /// Nothing: the program ends.
     Quit,
 }

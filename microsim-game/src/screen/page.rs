@@ -100,6 +100,14 @@ fn note_lines(pen: &Pen) -> usize {
     (room / pen.line(TextSize::Small) + 0.01) as usize
 }
 
+/// Draws a heading above a panel for all of the page.
+pub(super) fn draw_sheet(pen: &mut Pen, heading: &str) {
+    draw_heading(pen, heading);
+    let (screen, edge) = (pen.screen(), 0.3 * pen.line(TextSize::Body));
+    let top = heading_height(pen) + 0.7 * pen.line(TextSize::Large);
+    pen.panel(Vec2::new(edge, top), screen - edge);
+}
+
 /// Whether a small window shows all of a note with the largest text.
 #[cfg(test)]
 pub(super) fn is_seen_whole(note: &str) -> bool {

@@ -42,7 +42,6 @@ impl Pick {
     /// The files that the player has named or dropped, and the built-in scenarios.
     pub(super) fn new(context: &AppContext) -> Self {
         let files = context.files.iter().map(|file| (file.clone(), words::text(Key::PickFile)));
-        let about = |found: &Builtin| words::of_scene(found.name, "about").unwrap_or(found.summary);
         let builtins =
             scenario::builtins().iter().map(|found| (SceneSource::Builtin(found.name.to_owned()), about(found)));
         let sources: Vec<_> = files.chain(builtins).collect();
@@ -52,6 +51,11 @@ impl Pick {
         page.menu.set_focus(picked.unwrap_or_default());
         Self { page, sources }
     }
+}
+
+/// What a built-in scenario shows.
+fn about(found: &Builtin) -> &'static str {
+    words::of_scene(found.name, "about").unwrap_or(found.summary)
 }
 
 /// What a scenario is called for people; a file by its name.
@@ -66,6 +70,12 @@ fn title(source: &SceneSource) -> Label {
 pub(super) fn builtin_title(name: &str) -> Label {
     let known = TITLES.iter().find(|(known, _)| *known == name);
     known.map_or_else(|| name.to_owned().into(), |(_, title)| (*title).into())
+}
+
+/// A text with a capital at its beginning, as the list of the command line has none in English.
+fn sentence(text: &str) -> String {
+    let (first, rest) = text.split_at_checked(1).unwrap_or(("", text));
+    first.to_ascii_uppercase() + rest
 }
 
 impl Screen for Pick {
@@ -83,7 +93,7 @@ impl Screen for Pick {
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
         let summary = self.sources.get(self.page.menu.focus()).map_or("", |(_, summary)| *summary);
-        self.page.draw_note(&mut context.pen, summary);
+        self.page.draw_note(&mut context.pen, &sentence(summary));
         context.pen.flush();
         let layout = self.page.layout(&context.pen);
         for (item, low) in self.page.menu.shown(&layout) {
@@ -112,6 +122,13 @@ mod tests {
             assert!(matches!(name, Label::Key(_)) && name.text().starts_with(char::is_uppercase), "{name:?}");
         }
         assert_eq!(TITLES.len(), scenario::builtins().len());
+        for language in &words::LANGUAGES {
+            words::choose(language, || None);
+            for found in scenario::builtins() {
+                let told = sentence(about(found));
+                assert!(told.starts_with(|first: char| first.is_uppercase() || first.is_numeric()), "{told}");
+            }
+        }
         assert_eq!(title(&SceneSource::File("a/crawl.toml".into())), "crawl.toml".into());
     }
 }

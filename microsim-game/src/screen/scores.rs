@@ -2,7 +2,7 @@
 
 use super::context::AppContext;
 use super::join::LONGEST;
-use super::page::draw_heading;
+use super::page::draw_sheet;
 use super::pick::builtin_title;
 use super::{Next, Overlay, Screen};
 use crate::draw::palette::{HALO, READY};
@@ -84,7 +84,7 @@ impl Screen for ScoreList {
 }
 
 fn draw_page(pen: &mut Pen, (heading, points, scores): &Page) {
-    draw_heading(pen, heading);
+    draw_sheet(pen, heading);
     let (screen, line) = (pen.screen(), pen.line(TextSize::Body));
     if scores.is_empty() {
         pen.write(0.5 * screen, TextSize::Body, Align::Centre, HALO, words::text(Key::ScoresNone));

@@ -38,7 +38,7 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
     let settings = &context.settings;
     vec![
         MenuItem::with(Key::SettingsLanguage, context.language().name),
-        MenuItem::with(Key::SettingsOptics, context.sight().title()),
+        MenuItem::with(Key::SettingsOptics, optics(context.sight().title(), is_drawn(context))),
         MenuItem::with(Key::SettingsQuality, context.effort().title()),
         MenuItem::with(Key::SettingsTextSize, percent(settings.text_factor())),
         MenuItem::switch(Key::SettingsMotion, settings.reduced_motion),
@@ -53,6 +53,16 @@ fn items(context: &AppContext) -> Vec<MenuItem> {
         MenuItem::with(Key::SettingsName, settings.name.clone()),
         MenuItem::new(Key::Back),
     ]
+}
+
+/// Whether the drawn view stands in for the optics.
+fn is_drawn(context: &AppContext) -> bool {
+    context.scenery.stands_in(context.effort(), context.sight())
+}
+
+/// The name of the optics, with a mark if the drawn view stands in for them.
+fn optics(name: &str, is_drawn: bool) -> String {
+    format!("{name}{}", if is_drawn { " *" } else { "" })
 }
 
 /// What a setting does, if its name does not say it.
@@ -123,7 +133,8 @@ impl Screen for SettingsMenu {
 
     fn draw(&mut self, context: &mut AppContext) {
         self.page.draw(&mut context.pen);
-        let about = about(self.page.menu.focus()).map_or("", words::text);
+        let of_optics = Some(Key::SettingsDrawnAbout).filter(|_| is_drawn(context));
+        let about = about(self.page.menu.focus()).or(of_optics).map_or("", words::text);
         self.page.draw_note(&mut context.pen, about);
     }
 
@@ -147,6 +158,7 @@ mod tests {
             words::choose(language, || None);
             let told: Vec<&str> = (LANGUAGE..=KEYS).filter_map(about).map(words::text).collect();
             assert_eq!(told.len(), 7);
+            let told = told.into_iter().chain([words::text(Key::SettingsDrawnAbout)]);
             for about in told {
                 assert!(is_seen_whole(about), "{}: {about}", language.code);
             }

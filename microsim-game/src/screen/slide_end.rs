@@ -99,6 +99,11 @@ fn slide_of(played: Paused) -> Option<usize> {
     if let Paused::Slide(index) = played { Some(index).filter(|&index| index < SLIDES.len()) } else { None }
 }
 
+/// Where one comes who leaves the end: to the slides, if it was one of the list.
+fn left(played: Paused) -> Next {
+    slide_of(played).map_or(Next::Show(MainScreen::Title), |index| Next::Leave(Overlay::Slides(Some(index))))
+}
+
 /// What the menu offers after a slide.
 fn items(played: Paused, is_won: bool) -> Vec<Item> {
     let mut items: Vec<Item> = Vec::new();
@@ -148,7 +153,7 @@ impl Screen for SlideEnd {
         let Some(choice) = self.menu.update(input, context, &layout) else { return Next::Stay };
         match choice {
             EndChoice::Again => self.played.restart(),
-            EndChoice::Leave => Next::Show(MainScreen::Title),
+            EndChoice::Leave => left(self.played),
             EndChoice::Pick(item) => self.items[item].1(self.played),
         }
     }
@@ -160,7 +165,8 @@ impl Screen for SlideEnd {
         let width = lines.iter().map(|(_, size, _, line)| pen.width(*size, line)).fold(0.0, f32::max);
         let bottom = end_of(pen, &lines);
         EndMenu::draw_panel(pen, width, [0.09 * pen.screen().y - radius, bottom]);
-        draw_stars(pen, Vec2::new(0.5, 0.09) * pen.screen(), radius, self.stars, READY);
+        let colour = if self.stars > 0 { READY } else { HALO };
+        draw_stars(pen, Vec2::new(0.5, 0.09) * pen.screen(), radius, self.stars, colour);
         for (at, size, colour, line) in lines {
             pen.write(at, size, Align::Centre, colour, &line);
         }
@@ -174,5 +180,16 @@ impl Screen for SlideEnd {
 
     fn name(&self) -> String {
         format!("slide-end-{}", self.stars)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_leaves_the_end_of_a_slide_comes_to_the_slides_and_from_a_replay_to_the_title() {
+        assert!(matches!(left(Paused::Slide(2)), Next::Leave(Overlay::Slides(Some(2)))));
+        assert!(matches!(left(Paused::Replay), Next::Show(MainScreen::Title)));
     }
 }

@@ -108,6 +108,10 @@ impl Stack {
             Next::Back => drop(self.screens.pop()),
             Next::Quit => self.screens.clear(),
             Next::Open(overlay) => self.screens.push(open(overlay, context)),
+            Next::Leave(overlay) => {
+                self.go(Next::Show(MainScreen::Title), context);
+                self.go(Next::Open(overlay), context);
+            }
             Next::Show(main) => match show(main, context) {
                 Ok(screen) => self.screens = vec![screen],
                 Err(problem) => context.tell(problem),

@@ -3,6 +3,7 @@
 use crate::camera::Camera;
 use crate::hud::marks;
 use crate::input::Input;
+use crate::rules::aim::aimed;
 use crate::rules::brake::Brake;
 use crate::rules::hint::{Hints, PreyTarget};
 use crate::rules::lesson::FirstDeed;
@@ -48,17 +49,19 @@ impl Hands {
     ) -> [Option<Vec2>; 2] {
         match two {
             None | Some(TwoPlayers::Bot) => [self.goal(input, camera, round, 0), None],
-            Some(_) => [self.by_mouse(input, camera), by_keys(input, round, 1)],
+            Some(_) => [self.by_mouse(input, camera, round, 0), by_keys(input, round, 1)],
         }
     }
 
     /// Where one player steers to that has mouse and arrow keys.
     pub(super) fn goal(&self, input: &Input, camera: &Camera, round: &Round, player: usize) -> Option<Vec2> {
-        by_keys(input, round, player).or(self.by_mouse(input, camera))
+        by_keys(input, round, player).or(self.by_mouse(input, camera, round, player))
     }
 
-    fn by_mouse(&self, input: &Input, camera: &Camera) -> Option<Vec2> {
-        self.is_crawling.then(|| camera.to_room(input.cursor))
+    fn by_mouse(&self, input: &Input, camera: &Camera, round: &Round, player: usize) -> Option<Vec2> {
+        let (goal, view) = (self.is_crawling.then(|| camera.to_room(input.cursor))?, round.world().view());
+        let cell = round.players().nth(player).and_then(|cell| view.organism(cell));
+        Some(cell.map_or(goal, |cell| aimed(view, cell, goal)))
     }
 
     /// What the cell of a player does in a step.
@@ -152,5 +155,24 @@ mod tests {
         assert!(first.is_none() && near(second, right(at[1])), "{first:?} {second:?}");
         let [first, second] = goals(None);
         assert!(near(first, right(at[0])) && second.is_none(), "{first:?} {second:?}");
+    }
+
+    #[test]
+    fn the_mouse_on_food_steers_past_it_and_arrow_keys_go_where_they_point() {
+        let text = "schema = 1\nname = \"room\"\n[world]\nsize = [160.0, 90.0]\n[amoeboid_cell.cell]\nradii = [7.0, 7.0]\n\
+                    [agar.pellet]\nradius = 1.5\n[[spawn]]\nof = \"cell\"\nplayer = true\nat = [40.0, 45.0]\n\
+                    [[spawn]]\nof = \"pellet\"\nat = [49.0, 45.0]\n[game]\ntime = 60.0\n";
+        let round = Round::new(&Scenario::parse(text, &[]).unwrap()).unwrap();
+        let camera = Camera::whole(round.world().config().size, Vec2::new(640.0, 360.0));
+        let hands = Hands { is_crawling: true, ..Hands::default() };
+        let goal = |at: Vec2| {
+            let input = Input { cursor: camera.to_screen(at), ..Input::default() };
+            hands.goal(&input, &camera, &round, 0).unwrap()
+        };
+        let past = goal(Vec2::new(49.0, 45.0)).x;
+        assert!(past > 50.0, "past the food: {past}");
+        assert!(goal(Vec2::new(30.0, 45.0)).distance(Vec2::new(30.0, 45.0)) < 0.5, "into open water");
+        let input = Input { steer: -Vec2::X, ..Input::default() };
+        assert!((hands.goal(&input, &camera, &round, 0).unwrap().x - 10.0).abs() < 0.5);
     }
 }

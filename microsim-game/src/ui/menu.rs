@@ -232,12 +232,20 @@ impl Menu {
         places.into_iter().find(|&item| !self.items[item].is_heading).unwrap_or(self.focus)
     }
 
+    /// The first item that can be chosen, or the last one.
+    fn end(&self, is_last: bool) -> usize {
+        let mut items = (0..self.items.len()).filter(|&item| !self.items[item].is_heading);
+        if is_last { items.next_back() } else { items.next() }.unwrap_or(self.focus)
+    }
+
     fn walk(&mut self, input: &Input) -> Option<MenuChoice> {
         let focus = self.items.get(self.focus)?;
         let (has_value, is_choice) = (focus.value.is_some(), !focus.is_heading);
         match input.step? {
             Move::Up => self.focus = self.next(false),
             Move::Down => self.focus = self.next(true),
+            Move::First => self.focus = self.end(false),
+            Move::Last => self.focus = self.end(true),
             Move::Left if has_value => return Some(MenuChoice::Less(self.focus)),
             Move::Right if has_value => return Some(MenuChoice::Pick(self.focus)),
             Move::Confirm if is_choice => return Some(MenuChoice::Pick(self.focus)),

@@ -148,6 +148,17 @@ impl Play {
         heard.for_each(|(_, name)| context.find(name));
     }
 
+    /// Lets the own cell lunge. Its price, and why it cannot, is said once; later a dim ring says that it cannot.
+    fn lunge(&mut self, context: &mut AppContext) {
+        let lunged = self.round.lunge(0);
+        let said = lunged.err().unwrap_or(Key::HudLungePrice);
+        if context.lessons.is_first(said) {
+            context.tell(words::text(said));
+        } else if lunged.is_err() {
+            self.pulses.refuse(self.last_place);
+        }
+    }
+
     /// The cell that is looked at.
     fn seen(&self) -> OrganismId {
         chain_scene::seen(&self.round, Some(self.own)).unwrap_or(self.round.player())
@@ -249,11 +260,8 @@ impl Screen for Play {
         if input.presses(Action::Divide) {
             self.round.divide(0);
         }
-        if input.presses(Action::Lunge)
-            && self.round.has_lunges()
-            && let Err(told) = self.round.lunge(0)
-        {
-            context.tell(words::text(told));
+        if input.presses(Action::Lunge) && self.round.has_lunges() {
+            self.lunge(context);
         }
         if self.round.is_replay() {
             self.tempo = self.tempo.changed(input.presses(Action::Faster), input.presses(Action::Slower));

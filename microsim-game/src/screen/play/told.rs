@@ -4,6 +4,7 @@ use super::super::chain_scene;
 use super::super::steer::{first_advice, held_to_crawl, optics_advice};
 use super::Play;
 use crate::clock::Tempo;
+use crate::hud::places::is_before_place;
 use crate::hud::{self, Status};
 use crate::rules::hint::Hints;
 use crate::rules::lesson::FirstDeed;
@@ -63,7 +64,8 @@ impl Play {
             let of_ghost = || self.ghost.as_ref().and_then(|_| chain_scene::ghost_advice(time));
             chain_scene::advice(time, first, &self.divide_key, has_buttons).or_else(of_ghost)
         } else if self.task.is_some() {
-            (time < TASK_TIME).then(|| self.invitation(has_buttons))
+            let of_place = || self.is_before_place().then(|| words::text(Key::HintPlace).to_owned());
+            (time < TASK_TIME).then(|| self.invitation(has_buttons)).or_else(of_place)
         } else if let Some(key) = key.filter(|_| hints.can_digest() && self.round.referee().score() == 0) {
             Some(words::text_with(Key::HintDigest, &[("key", key.into())]))
         } else if time < ADVICE_TIME && self.has_two_hands() {
@@ -81,6 +83,12 @@ impl Play {
         let of_key = || words::text_with(Key::HintLungeKey, &[("key", (&self.lunge_key).into())]);
         let what = if has_buttons { words::text(Key::ActionLunge).to_owned() } else { of_key() };
         words::text_with(lesson, &[("what", (&what).into())])
+    }
+
+    /// Whether the cell touches a place that its middle has to reach.
+    fn is_before_place(&self) -> bool {
+        let cell = self.round.world().view().organism(self.seen());
+        self.round.attempt().zip(cell).is_some_and(|(attempt, cell)| is_before_place(attempt, cell))
     }
 
     /// Whether somebody plays the second cell.

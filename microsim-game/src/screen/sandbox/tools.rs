@@ -163,7 +163,9 @@ impl Tools {
         match (self.tool, found) {
             (Tool::Spawn, _) => return self.put_in(stage, at).err(),
             (Tool::Ask, _) => self.asked = guide::find(name_at(stage.world().view(), at, within)),
-            (Tool::Steer, _) if stage.player().is_none() => return told(Key::SandboxNobody),
+            // Who follows nobody begins with the one at hand.
+            (Tool::Steer, Some(_)) if stage.player().is_none() => stage.set_player(found),
+            (Tool::Steer, None) if stage.player().is_none() => return told(Key::SandboxNobody),
             (Tool::Steer, _) if !can_crawl(stage) => return told(Key::SandboxImmobile),
             (Tool::Look, _) if camera.shows_all() => return told(Key::SandboxWhole),
             (Tool::Push, _) if stage.world().organisms_in_circle(at, PUSH_RADIUS).next().is_none() => {
@@ -342,6 +344,18 @@ mod tests {
         let mut tools = Tools { tool: Tool::Look, ..Tools::default() };
         assert_eq!(tools.use_on(&mut stage, &near, &click, false, false), None, "there is more to see");
         assert!(tools.look_around(&mut near));
+    }
+
+    #[test]
+    fn who_follows_nobody_follows_whom_the_tool_to_steer_is_used_on() {
+        let mut stage = stage();
+        let size = stage.world().config().size;
+        let camera = Camera::whole(size, Vec2::new(640.0, 360.0));
+        let agar = stage.world_mut().spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        let cursor = camera.to_screen(Vec2::splat(20.0));
+        let click = Input { cursor, is_clicked: true, is_held: true, ..Input::default() };
+        assert_eq!(Tools::default().use_on(&mut stage, &camera, &click, false, false), None);
+        assert_eq!(stage.player(), Some(agar));
     }
 
     #[test]

@@ -34,6 +34,16 @@ fn the_keyboard_goes_round_and_the_view_follows() {
 }
 
 #[test]
+fn home_and_end_lead_to_the_first_and_the_last_item_that_can_be_chosen() {
+    let mut menu = menu();
+    menu.items[0] = MenuItem::heading("about");
+    menu.update(&step(Move::Last), &LAYOUT);
+    assert_eq!((menu.focus, menu.first), (4, 2));
+    menu.update(&step(Move::First), &LAYOUT);
+    assert_eq!((menu.focus, menu.first), (1, 1));
+}
+
+#[test]
 fn headings_are_passed_by_keys_wheel_and_mouse() {
     let mut menu = menu();
     for heading in [0, 3] {
