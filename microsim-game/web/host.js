@@ -151,6 +151,18 @@ function download(name, bytes) {
     return true;
 }
 
+/** Gives the player a picture as a file: its width and name, and four bytes for each pixel. */
+function downloadPicture(what, pixels) {
+    const [width, ...name] = what.split(" ");
+    const canvas = document.createElement("canvas");
+    const picture = new ImageData(new Uint8ClampedArray(pixels), Number(width));
+    canvas.width = picture.width;
+    canvas.height = picture.height;
+    canvas.getContext("2d").putImageData(picture, 0, 0);
+    canvas.toBlob((file) => download(name.join(" "), file));
+    return true;
+}
+
 let audio = null, played = 0;
 
 /** Plays samples after those before, a little later than now: frames come when they come. */
@@ -366,6 +378,7 @@ const orders = {
     "language": translate,
     "leave room": leaveRoom,
     "offer": (query) => ((water = query), true),
+    "picture": downloadPicture,
     "print": (_, bytes) => console.log(decode(bytes)),
     "rename": rename,
     "send": send,

@@ -139,6 +139,20 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::write(path, bytes)
 }
 
+/// Writes a picture as a PNG for the player: rows from above, four bytes for each pixel.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn write_picture(path: &Path, (width, height): (u32, u32), pixels: &[u8]) -> io::Result<()> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.write_header()?.write_image_data(pixels)?;
+    write(path, &file)
+}
+
 /// Nothing: the player finds what is kept.
 #[must_use]
 pub fn hand_over(_: &str, _: &[u8]) -> bool {
@@ -196,6 +210,17 @@ mod tests {
         let said = clean("a\u{1b}]52;c;eA==\u{7}\r\u{9b}2J\u{202e}\u{200b}\nµ \"b\" 'c' \\");
         let expected = "a\\u{1b}]52;c;eA==\\u{7}\\u{d}\\u{9b}2J\\u{202e}\\u{200b}\n  µ \"b\" 'c' \\";
         assert_eq!(said, expected);
+    }
+
+    #[test]
+    fn a_written_picture_has_its_size() {
+        let path = std::env::temp_dir().join(format!("microsim-picture-{}.png", std::process::id()));
+        write_picture(&path, (3, 2), &[7; 24]).unwrap();
+        let decoder = png::Decoder::new(File::open(&path).unwrap());
+        let reader = decoder.read_info().unwrap();
+        assert_eq!((reader.info().width, reader.info().height), (3, 2));
+        fs::remove_file(path).unwrap();
+        assert!(write_picture(Path::new("/nonexistent/a.png"), (1, 1), &[0; 4]).is_err());
     }
 
     #[cfg(unix)]

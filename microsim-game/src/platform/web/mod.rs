@@ -86,6 +86,15 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     is_taken.then_some(()).ok_or(io::ErrorKind::Other.into())
 }
 
+/// Gives the player a picture, as a PNG: rows from above, four bytes for each pixel. The browser makes the file.
+///
+/// # Errors
+/// When the page does not take it.
+pub fn write_picture(path: &Path, (width, _): (u32, u32), pixels: &[u8]) -> io::Result<()> {
+    let is_taken = host::tell("picture", &format!("{width} {}", path.to_string_lossy()), pixels);
+    is_taken.then_some(()).ok_or(io::ErrorKind::Other.into())
+}
+
 /// Gives the player a file that is kept as well: only this page finds what it keeps. Returns whether it did.
 pub fn hand_over(name: &str, bytes: &[u8]) -> bool {
     write(Path::new(name), bytes).is_ok()
