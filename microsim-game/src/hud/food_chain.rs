@@ -154,7 +154,7 @@ pub fn summary(time: f32, [size, next]: [f32; 2], sisters: usize) -> String {
 
 /// Writes that the player is being bitten, below the status.
 pub fn draw_bitten(pen: &mut Pen) {
-    let height = (0.2 * pen.screen().y).max(2.2 * pen.line(TextSize::Large));
+    let height = (0.2 * pen.screen().y).max(2.8 * pen.line(TextSize::Large));
     pen.label(
         Vec2::new(0.5 * pen.screen().x, height),
         TextSize::Large,
@@ -187,7 +187,10 @@ mod tests {
             pen.canvas().corners().fold([f32::MAX, 0.0], |[low, high], (at, ..)| [low.min(at.y), high.max(at.y)])
         };
         let status = heights(|pen| {
-            draw_status(pen, &Status { score: &[(None, "1".to_owned())], time: [9.0, 60.0], is_calm: true, note: "" });
+            draw_status(
+                pen,
+                &Status { score: &[(None, "1".to_owned())], time: [9.0, 60.0], starves: true, is_calm: true, note: "" },
+            );
         });
         let bitten = heights(draw_bitten);
         assert!(status[1] <= bitten[0] && bitten[1] < 180.0, "{status:?} {bitten:?}");

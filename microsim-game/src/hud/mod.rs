@@ -12,6 +12,7 @@ pub mod tint;
 use crate::draw::palette::{ALERT, HALO, INK, PLAYERS, READY, fade};
 use crate::ui::font::TextSize;
 use crate::ui::pen::{Align, Pen};
+use crate::words::{self, Key};
 use microsim_core::glam::Vec2;
 
 /// Time at the end in which the clock stands out, s.
@@ -27,6 +28,8 @@ pub struct Status<'a> {
     pub score: &'a [(Option<usize>, String)],
     /// Time left and time in all, s.
     pub time: [f32; 2],
+    /// Whether time is left until a cell starves.
+    pub starves: bool,
     /// Whether nothing may flash.
     pub is_calm: bool,
     /// What else there is to know; empty if nothing.
@@ -58,6 +61,10 @@ pub fn draw_status(pen: &mut Pen, status: &Status<'_>) {
     let blinks = is_late && !status.is_calm && left.fract() < 0.35 && left > 0.0;
     let colour = if blinks { ALERT } else { HALO };
     pen.label(Vec2::new(screen.x - 0.3 * line, middle), TextSize::Large, Align::Right, colour, &clock(left));
+    if status.starves {
+        let at = Vec2::new(screen.x - 0.3 * line, middle + 0.62 * (line + pen.line(TextSize::Small)));
+        pen.label(at, TextSize::Small, Align::Right, colour, words::text(Key::HudStarves));
+    }
     if left > 0.0 && left <= COUNTED_SECONDS && whole > COUNTED_SECONDS {
         let at = Vec2::new(0.5 * screen.x, middle + 1.6 * line);
         pen.label(at, TextSize::Large, Align::Centre, ALERT, &(left.ceil() as u32).to_string());
@@ -121,7 +128,7 @@ mod tests {
         let score = [30, 50].map(|points| points.to_string());
         let [first, second] = [0, 1].map(|k| (Some(k), score[k].clone()));
         let panels = |pen: &mut Pen, score: &[(Option<usize>, String)]| {
-            draw_status(pen, &Status { score, time: [50.0, 60.0], is_calm: true, note: "" });
+            draw_status(pen, &Status { score, time: [50.0, 60.0], starves: false, is_calm: true, note: "" });
             let left = pen.canvas().corners().map(|(at, ..)| at).filter(|at| at.y > 9.0 && at.x < 640.0);
             left.map(|at| at.x).fold(0.0, f32::max)
         };
@@ -135,13 +142,29 @@ mod tests {
             let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.0);
             draw_status(
                 &mut pen,
-                &Status { score: &[(None, "1".to_owned())], time: [left, 60.0], is_calm: true, note: "" },
+                &Status {
+                    score: &[(None, "1".to_owned())],
+                    time: [left, 60.0],
+                    starves: true,
+                    is_calm: true,
+                    note: "",
+                },
             );
             let at: Vec<Vec2> = pen.canvas().corners().map(|(at, ..)| at).collect();
             at.into_iter().filter(|at| at.x > 280.0 && at.x < 360.0 && at.y > 40.0).count()
         };
         assert_eq!([6.0, 5.5, 0.0].map(middle), [0; 3]);
         assert!([5.0, 4.2, 0.1].map(middle).iter().all(|corners| *corners > 0));
+    }
+
+    #[test]
+    fn a_clock_of_hunger_says_so_below() {
+        let lowest = |starves| {
+            let (mut pen, _) = Pen::measured(Vec2::new(640.0, 360.0), 1.0);
+            draw_status(&mut pen, &Status { score: &[], time: [20.0, 60.0], starves, is_calm: true, note: "" });
+            pen.canvas().corners().map(|(at, ..)| at.y).fold(0.0, f32::max)
+        };
+        assert!(lowest(true) > lowest(false) + 5.0);
     }
 
     #[test]

@@ -19,6 +19,7 @@ pub mod ghost;
 pub mod hint;
 pub mod lesson;
 pub mod lunge;
+pub mod news;
 pub mod path;
 pub mod prey_class;
 pub mod referee;

@@ -310,8 +310,9 @@ impl Screen for Contest {
             (self.game.plan().way.summary(round), [referee.time_left(), referee.game().time])
         };
         let life = looked_at.and_then(|cell| chain_scene::status(round, cell));
+        let starves = life.is_some();
         let (score, time) = life.map_or_else(of_points, |(told, time)| (vec![(None, told)], time));
-        hud::draw_status(pen, &Status { score: &score, time, is_calm: style.time.is_none(), note: &note });
+        hud::draw_status(pen, &Status { score: &score, time, starves, is_calm: style.time.is_none(), note: &note });
         match (self.offer(), advice) {
             (Some(offered), _) => offer::draw(pen, offered),
             (None, Some(advice)) => hud::draw_advice(pen, &advice, platform::covered_height()),

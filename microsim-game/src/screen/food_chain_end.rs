@@ -6,7 +6,7 @@ use super::end_menu::{EndMenu, doubted, rank, signature};
 use super::food_chain::{LONGEST, WATERS, todays_seed};
 use super::{MainScreen, Next, Paused, Screen, new_seed};
 use crate::draw::palette::{HALO, READY, fade};
-use crate::input::Input;
+use crate::input::{Action, Input};
 use crate::platform;
 use crate::rules::food_chain::feats::Feats;
 use crate::rules::food_chain::{Fate, Life, NAME};
@@ -66,7 +66,8 @@ impl FoodChainEnd {
         let mut told = vec![heading(words::text_with(Key::ChainLived, &[("time", feats.time.into())]))];
         if let Some(place) = place {
             told.extend(place.map(|place| (TextSize::Body, if place == 0 { READY } else { HALO }, rank(place), 4)));
-            told.extend(told_of(&life, [before, context.chain_records.best]));
+            let divide = context.settings.keys.label(Action::Divide);
+            told.extend(told_of(&life, [before, context.chain_records.best], &divide));
         }
         let water = words::text_with(Key::ChainWater, &[("seed", (&life.seed.to_string()).into())]);
         told.push((TextSize::Small, fade(HALO, 0.85), water, 5));
@@ -75,8 +76,9 @@ impl FoodChainEnd {
     }
 }
 
-/// What was done, what ended it and how that is helped, and the next goal; `[before, now]` are the most of all lives.
-fn told_of(life: &Life, [before, now]: [Feats; 2]) -> Vec<Paragraph> {
+/// What was done, what ended it and how that is helped, and the next goal; `[before, now]` are the most of all lives, `divide` is what
+/// is written on the key that divides.
+fn told_of(life: &Life, [before, now]: [Feats; 2], divide: &str) -> Vec<Paragraph> {
     let Feats { small, cells, changes, bites, .. } = life.feats;
     let done = [("small", small.into()), ("cells", cells.into()), ("changes", changes.into()), ("bites", bites.into())];
     let mut told = vec![(TextSize::Body, HALO, words::text_with(Key::ChainDone, &done), 3)];
@@ -86,7 +88,7 @@ fn told_of(life: &Life, [before, now]: [Feats; 2]) -> Vec<Paragraph> {
             Fate::Eaten if life.feats.divisions == 0 => (Key::ChainEatenAlone, Key::ChainEatenFact),
             Fate::Eaten => (Key::ChainEaten, Key::ChainEatenFact),
         };
-        told.push((TextSize::Body, HALO, words::text(missed).to_owned(), 1));
+        told.push((TextSize::Body, HALO, words::text_with(missed, &[("key", divide.into())]), 1));
         told.push((TextSize::Small, fade(HALO, 0.85), words::text(fact).to_owned(), 6));
     }
     let [done, all] = now.goals();
@@ -164,9 +166,10 @@ mod tests {
                 let life = Life { time: 1234.5, fate: Some(fate), feats, seed: u64::MAX };
                 let lived = words::text_with(Key::ChainLived, &[("time", 1234.into())]);
                 let mut told = vec![(TextSize::Large, HALO, lived, 0), (TextSize::Body, READY, rank(9), 4)];
-                told.extend(told_of(&life, [Feats::default(), best]));
+                told.extend(told_of(&life, [Feats::default(), best], "Caps Lock"));
                 assert!(told.iter().any(|part| part.2 == best.next_goal(Key::ChainNext).unwrap()));
                 assert!(told.iter().all(|part| !part.2.contains("--")), "no command");
+                assert_eq!(fate == Fate::Eaten, told.iter().any(|part| part.2.contains("(Caps Lock)")));
                 for (screen, factor) in [((640.0, 360.0), 1.5), ((1280.0, 720.0), 1.0)] {
                     let (pen, _) = Pen::measured(screen.into(), factor);
                     let bottom = MenuLayout::middle(&pen, MENU_TOP).corner.y;

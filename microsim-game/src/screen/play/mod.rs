@@ -19,8 +19,10 @@ use crate::platform;
 use crate::rules::bot::Bot;
 use crate::rules::food_chain::feats::Feats;
 use crate::rules::ghost::Ghost;
-use crate::rules::hint::{Hints, taken_in};
+use crate::rules::hint::Hints;
 use crate::rules::lesson::FirstDeed;
+use crate::rules::news::News;
+use crate::rules::referee::Gain;
 use crate::rules::round::Round;
 use crate::rules::threat::Alarm;
 use crate::rules::two_players::TwoPlayers;
@@ -97,26 +99,22 @@ impl Play {
             goals.iter().any(Option::is_some) || input.presses(Action::Divide) || input.presses(Action::Lunge);
         let digests = context.settings.digests(input);
         let speed = if self.has_begun { context.settings.pace() * self.tempo.factor() } else { 0.0 };
-        let Self { round, viewer, gains, heard, hands, bot, ghost, .. } = self;
-        let (mut digested, mut meals, mut is_refused) = (Vec::new(), Vec::new(), false);
-        heard.clear();
+        let Self { round, viewer, hands, bot, ghost, .. } = self;
+        let mut news = News::default();
         viewer.run(context.pace, speed, round, |round| {
             let mut intents = hands.intents(round, goals, digests);
             if let (Some(bot), Some(cell), Some(intent)) = (bot.as_mut(), round.players().nth(1), intents.get_mut(1)) {
                 *intent = bot.intent(round.world(), cell);
             }
-            round.step_all(&intents);
+            news.step(round, &intents);
             ghost.iter_mut().for_each(Ghost::step);
-            heard.extend(round.heard());
-            is_refused |= round.is_division_refused();
-            gains.add(round.gains());
-            let cells: Vec<OrganismId> = round.players().collect();
-            meals.extend(taken_in(round.world(), &cells));
-            digested.extend(round.gains().map(|gain| gain.kind));
             round.world()
         });
+        let News { heard, gains, meals, is_division_refused } = news;
+        Self::find(&heard, &gains, context);
+        self.heard = heard;
         meals.iter().for_each(|&(at, half_extent)| self.pulses.take(at, half_extent));
-        if is_refused {
+        if is_division_refused {
             context.tell(words::text(Key::HudUndivided));
         }
         let is_feast = meals.iter().any(|(_, half_extent)| is_large(*half_extent));
@@ -126,6 +124,7 @@ impl Play {
         if self.viewer.step_ms() > GHOST_STEP {
             self.ghost = None;
         }
+        self.gains.add(gains.into_iter());
         self.gains.pass(context.pace.elapsed);
         if let Some(attempt) = self.round.attempt() {
             self.done.pass(attempt, context.pace.elapsed);
@@ -141,10 +140,14 @@ impl Play {
                 OWN_BODY.into_iter().for_each(|name| context.find(name));
             }
         }
-        let names = digested.into_iter().filter_map(|kind| Some(guide::of_kind(kind)?.name));
-        names.for_each(|name| context.find(name));
+    }
+
+    /// Finds in the field guide what was digested and heard.
+    fn find(heard: &[Cue], gains: &[Gain], context: &mut AppContext) {
+        let digested = gains.iter().filter_map(|gain| Some(guide::of_kind(gain.kind)?.name));
+        digested.for_each(|name| context.find(name));
         let events = [(Cue::Ingest, "phagocytosis"), (Cue::Digest, "phagosome"), (Cue::Divide, "division")];
-        let heard = events.into_iter().filter(|(cue, _)| self.heard.contains(cue));
+        let heard = events.into_iter().filter(|(cue, _)| heard.contains(cue));
         heard.for_each(|(_, name)| context.find(name));
     }
 

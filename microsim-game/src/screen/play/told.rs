@@ -42,8 +42,9 @@ impl Play {
         };
         let life = chain_scene::status(&self.round, self.seen()).or_else(|| self.last_life.clone());
         let life = life.filter(|_| self.two.is_none()).map(|(told, time)| (vec![(None, told)], time));
+        let starves = life.is_some();
         let (score, time) = life.unwrap_or_else(of_game);
-        hud::draw_status(pen, &Status { score: &score, time, is_calm, note: &note });
+        hud::draw_status(pen, &Status { score: &score, time, starves, is_calm, note: &note });
     }
 
     pub(super) fn advice(

@@ -22,10 +22,11 @@ use crate::ui::menu::Menu;
 use crate::ui::pen::{Align, Pen};
 use crate::viewer::{FIRST_HEIGHT, Viewer, first_view};
 use crate::words::{self, Key};
+use microsim_core::View;
 use microsim_core::geometry::signed_area;
 use microsim_core::glam::Vec2;
 use plots::Plots;
-use tools::Tools;
+use tools::{Tool, Tools};
 use undo::Undo;
 
 /// A scene to meddle with.
@@ -58,7 +59,9 @@ impl Sandbox {
         let camera = first_view(stage.world(), stage.player(), FIRST_HEIGHT, context.pen.screen());
         let shows = Shows { panel: !context.pace.is_exact, ..Shows::default() };
         let (viewer, panel) = (Viewer::new(stage.world(), camera), Menu::default());
-        let (tools, undo, plots) = (Tools::default(), Undo::default(), Plots::default());
+        let mut tools = Tools::default();
+        tools.tool = first_tool(stage.world().view());
+        let (undo, plots) = (Undo::default(), Plots::default());
         let (heard, tempo) = (Vec::new(), Tempo::default());
         let mut sandbox = Self { stage, viewer, tools, undo, panel, plots, heard, tempo, shows, is_paused: false };
         sandbox.panel.items = panel::items(&sandbox);
@@ -270,9 +273,26 @@ impl Screen for Sandbox {
     }
 }
 
+/// The tool with which a scene begins: where nobody crawls there is nobody to steer, but all can be pushed away.
+fn first_tool(view: View<'_>) -> Tool {
+    let stands = view.organisms().count() > 0 && view.organisms().all(|organism| organism.speed() == 0.0);
+    if stands { Tool::Push } else { Tool::Steer }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use microsim_core::{AgarSpec, AmoeboidCellSpec, Placement, World, WorldConfig};
+
+    #[test]
+    fn where_nobody_crawls_all_are_pushed_away() {
+        let mut world = World::new(WorldConfig::default()).unwrap();
+        assert_eq!(first_tool(world.view()), Tool::Steer);
+        world.spawn(&AgarSpec::default().into(), Placement::at(20.0, 20.0)).unwrap();
+        assert_eq!(first_tool(world.view()), Tool::Push);
+        world.spawn(&AmoeboidCellSpec::default().into(), Placement::at(40.0, 40.0)).unwrap();
+        assert_eq!(first_tool(world.view()), Tool::Steer);
+    }
 
     #[test]
     fn the_status_fits_small_and_narrow_windows() {
