@@ -58,7 +58,7 @@ const POSITIVE: Mode = Mode {
     surround: Some(Surround::Wave),
     blur: 0.11,
     ground: [BACKGROUND; 3],
-    grain: 0.42,
+    grain: 0.56,
     shader: Shader::Light(|sampler, x, y| shade(sampler, x, y, TRANSMISSION), &POSITIVE_GLSL),
 };
 

@@ -75,7 +75,7 @@ void main() {
     depth += edge.x * (share * ragged + front_share * edge.y);
     float rim = middle.w * share;
     float inside = max(1.0 - dot(own, own) / (middle.z * middle.z), 0.0);
-    float high = mix(FLAT, 1.0, inside * inside);
+    float high = mix(FLAT * (1.0 - EDGE_UNEVEN * (share - 1.0)), 1.0, inside * inside);
     float dome = mix(high * rise(depth / rim), lamella.z * rise(depth / (0.25 * rim)), front_share);
     float uneven = three_octaves(own / relief.w, shifts[0]);
     vec4 sum = matter * (dome * (1.0 + relief.z * uneven));

@@ -54,6 +54,8 @@ const THINNEST: f32 = 0.85;
 /// Size of the irregularities of its rims, in the cell's mean radii, and their strength as a share.
 const RIM_SIZE: f32 = 0.45;
 const RIM_UNEVEN: f32 = 0.85;
+/// How much thinner its edge is where the rim is wide, and thicker where it is narrow.
+const EDGE_UNEVEN: f32 = 0.6;
 /// Spread of the thickness of the cells of a slide, and of how much of the dyes their cytoplasm takes up; the most basic dye.
 const SLIDES: f32 = 0.22;
 const BASOPHIL: f32 = 0.16;
@@ -71,6 +73,7 @@ pub(in crate::microscope) const GLSL: Glsl = Glsl {
         ("FLAT", &[FLAT]),
         ("RIM_SIZE", &[RIM_SIZE]),
         ("RIM_UNEVEN", &[RIM_UNEVEN]),
+        ("EDGE_UNEVEN", &[EDGE_UNEVEN]),
         ("DYED", &[DYED]),
     ],
 };
@@ -202,7 +205,7 @@ impl AmoeboidBody {
         let depth = depth + self.rags() * (share * ragged + lamella * PULSE * (self.pulse() - 1.0));
         let rim = self.rim() * share;
         let inside = larger(1.0 - own.length_squared() / (self.radius * self.radius), 0.0);
-        let high = mix(FLAT, 1.0, inside * inside);
+        let high = mix(FLAT * (1.0 - EDGE_UNEVEN * (share - 1.0)), 1.0, inside * inside);
         let dome =
             mix(high * rise(depth / rim), look.lamella.thickness * self.pulse() * rise(depth / (0.25 * rim)), lamella);
         let uneven = octaves(own / look.texture.size, 3, self.seed ^ SALTS[0]);

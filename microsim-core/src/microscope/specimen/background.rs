@@ -7,25 +7,28 @@ use crate::bare_text::bare_text;
 use crate::geometry::{rotate, unit_vector};
 use crate::look::SpotShape;
 use crate::microscope::glsl::Glsl;
-use crate::microscope::maths::{smaller, smoothstep};
+use crate::microscope::maths::{larger, smaller, smoothstep};
 use crate::microscope::matter::{Matter, MatterRaster};
 use crate::microscope::noise::{HashRng, hash, octaves, shift_of, wobble};
 use crate::microscope::recipe::{DrawList, Program, QUAD};
 use glam::{IVec2, Vec2};
 
 /// Logarithm of what slides have of these on average, and its spread.
-const DIRTY: [f32; 2] = [-0.35, 0.65];
+const DIRTY: [f32; 2] = [-0.45, 0.85];
 /// Side of the cells in which single specks are strewn, micrometres, and specks in each on average.
 const DUST_CELL: f32 = 5.0;
 const DUST: f32 = 0.65;
 /// The same for clumps of debris. Where they are thick and where they are rare changes over a distance.
 const CLUMP_CELL: f32 = 12.0;
-const CLUMPS: f32 = 3.2;
+const CLUMPS: f32 = 3.6;
 const PATCHES: f32 = 34.0;
-/// Grains of a clump: their median, the standard deviation of its logarithm, and the most.
-const GRAINS: f32 = 3.0;
-const GRAINS_SPREAD: f32 = 1.1;
-const MOST_GRAINS: usize = 34;
+/// Grains of a clump: a share of `1 / n` has more than `n`, by this power, up to the most.
+const GRAINS_POWER: f32 = 0.95;
+const MOST_GRAINS: usize = 70;
+/// Median radius of a grain, micrometres, and delay, radians; grains of large clumps are fainter by this power of their number.
+const GRAIN: f32 = 0.13;
+const GRAIN_DENSE: f32 = 0.10;
+const LOOSE: f32 = 0.2;
 /// Of this many grains last added to a clump one is where the next grows.
 const TIPS: usize = 5;
 /// The same for what is out of focus.
@@ -150,7 +153,7 @@ impl BackgroundMatter {
         let radius = 0.07 + 0.3 * size * size * size;
         let sign = if rng.unit() < 0.75 { strength } else { -strength };
         let matter = Matter { nucleus: 0.04 * sign, ..Matter::phase(sign * rng.range([0.04, 0.22])) };
-        let chirp = if rng.unit() < 0.2 { rng.range([2.5, 7.0]) } else { 0.0 };
+        let chirp = if rng.unit() < 0.08 { rng.range([2.5, 7.0]) } else { 0.0 };
         let grains = if chirp > 0.0 { 1 } else { 1 + rng.bits() % 3 };
         let mut at = at;
         for _ in 0..grains {
@@ -163,20 +166,20 @@ impl BackgroundMatter {
     /// Grains that grew on each other, more or less along one way, all of a kind, in focus or out of it.
     fn clump(&self, at: Vec2, strength: f32, rng: &mut HashRng, spots: &mut Vec<Spot>) {
         let share = smoothstep(-0.5, 0.6, octaves(at / PATCHES, 2, self.seed ^ 25));
-        let count = 3.0 * share * GRAINS * libm::expf(GRAINS_SPREAD * rng.normal());
-        let size = 0.155 * libm::expf(0.55 * rng.normal());
-        let dense = 0.10 * libm::expf(0.65 * rng.normal()) * strength;
+        let count = smaller(1.6 * share * grains(rng.unit()), MOST_GRAINS as f32);
+        let size = GRAIN * libm::expf(0.5 * rng.normal());
+        let dense = GRAIN_DENSE * libm::expf(0.6 * rng.normal() - LOOSE * libm::logf(1.0 + count)) * strength;
         let along = rng.direction() * (1.6 * rng.unit());
         let dyed = if rng.unit() < 0.22 { dense } else { 0.08 * dense };
         let matter = Matter { phase: dense, haemoglobin: 0.35 * dyed, cytoplasm: 0.0, nucleus: 0.7 * dyed };
-        let chirp = if rng.unit() < 0.3 { rng.range([2.5, 8.0]) } else { 0.0 };
+        let chirp = if rng.unit() < 0.12 { rng.range([2.5, 8.0]) } else { 0.0 };
         let mut tips = [at; TIPS];
-        for k in 0..(count as usize).min(MOST_GRAINS) {
+        for k in 0..count as usize {
             let from = tips[rng.bits() as usize % TIPS];
-            let at = from + (rng.direction() + along).normalize_or_zero() * (1.4 * size);
+            let at = from + (rng.direction() + along).normalize_or_zero() * (size * rng.range([0.6, 1.9]));
             tips[k % TIPS] = at;
-            let radius = size * libm::expf(0.3 * rng.normal());
-            let matter = matter * rng.range([0.5, 1.1]);
+            let radius = size * libm::expf(0.5 * rng.normal());
+            let matter = matter * rng.range([0.2, 1.3]);
             spots.push(if chirp == 0.0 {
                 Spot { at, radius, matter, shape: SpotShape::Bump }
             } else {
@@ -204,6 +207,11 @@ impl BackgroundMatter {
     }
 }
 
+/// Grains of a clump, of a number from 0 to 1.
+fn grains(share: f32) -> f32 {
+    libm::powf(larger(share, 1e-3), -GRAINS_POWER)
+}
+
 /// A fibre that wanders over the glass, with strands that part from its end, in focus or not.
 fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
     let step = FIBRE_STEP * libm::expf(FIBRE_SPREAD * rng.normal());
@@ -213,7 +221,9 @@ fn fibre(at: Vec2, strength: f32, rng: &mut HashRng) -> Vec<Thread> {
     let dense = strength * rng.range([0.03, 0.15]) / blur;
     let matter = Matter { nucleus: 0.15 * dense, ..Matter::phase(dense) };
     let trunk = wander(at, rng.direction() * step, bend, rng);
-    let mut threads: Vec<Thread> = Thread::curve(&trunk, |_| radius, matter).collect();
+    let parts = Thread::curve(&trunk, |_| radius, matter).collect::<Vec<_>>();
+    let mut threads: Vec<Thread> =
+        parts.into_iter().map(|part| Thread { matter: part.matter * rng.range([0.1, 1.4]), ..part }).collect();
     for _ in 0..rng.bits() % 3 {
         let from = FIBRE_POINTS - 2 - rng.bits() as usize % (FIBRE_POINTS / 2);
         let way = rotate(trunk[from + 1] - trunk[from], unit_vector(0.5 * rng.normal()));
@@ -289,6 +299,24 @@ pub(super) fn strewn(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn most_debris_is_tiny_and_little_of_it_large() {
+        let background = BackgroundMatter { seed: 1, time: 0.0, camera: Vec2::ZERO };
+        let clumps: Vec<usize> = (0..4000)
+            .map(|seed| {
+                let mut spots = Vec::new();
+                let at = Vec2::new((seed % 64) as f32, (seed / 64) as f32) * 9.0;
+                background.clump(at, 1.0, &mut HashRng::new(seed), &mut spots);
+                spots.len()
+            })
+            .collect();
+        let more_than = |grains: usize| clumps.iter().filter(|&&count| count > grains).count();
+        // A power law: four times as large, about a quarter as many.
+        let numbers = [1, 7, 31].map(more_than);
+        assert!(numbers.windows(2).all(|pair| (3..7).contains(&(pair[0] / pair[1].max(1)))), "{numbers:?}");
+        assert!(clumps.iter().all(|&count| count <= MOST_GRAINS));
+    }
 
     #[test]
     fn fibres_are_bent_and_of_many_lengths() {

@@ -22,8 +22,8 @@ pub(super) const LOOK: AmoeboidLook = AmoeboidLook {
     mitochondria: 0.22,
     longest_mitochondrion: 2.6,
     fibres: 0,
-    processes: 12,
-    longest_process: 2.0,
+    processes: 7,
+    longest_process: 3.5,
     blebs: [0.0, 0.0],
 };
 
@@ -67,12 +67,12 @@ const GRANULES: GranuleLook = GranuleLook {
 };
 
 const VACUOLES: GranuleLook = GranuleLook {
-    density: 0.022,
+    density: 0.014,
     radius: 0.75,
     spread: 0.45,
     limits: [0.3, 1.3],
     gathered: 0.8,
-    companions: 0,
+    companions: 3,
     matter: Matter { phase: -0.0065 * WAVE, haemoglobin: 0.0, cytoplasm: -0.28, nucleus: 0.0 },
-    shape: SpotShape::Ball,
+    shape: SpotShape::Bump,
 };

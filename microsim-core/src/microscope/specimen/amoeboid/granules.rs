@@ -19,10 +19,13 @@ const JIGGLE_RATE: f32 = 3.0;
 const AROUND: f32 = 0.32;
 const PATCHES: f32 = 0.40;
 /// A nucleolus: dense, of RNA and protein; and the chromatin that it takes the place of.
-const NUCLEOLUS: Matter = Matter { phase: 0.5, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.0 };
+const NUCLEOLUS: Matter = Matter { phase: 0.24, haemoglobin: 0.0, cytoplasm: 0.3, nucleus: 0.0 };
 const DISPLACED: Matter = Matter { phase: -0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: -0.22 };
 /// Condensed chromatin around it.
 const AROUND_NUCLEOLUS: Matter = Matter { phase: 0.02, haemoglobin: 0.0, cytoplasm: 0.0, nucleus: 0.14 };
+/// Fewest lumps that a nucleolus is made of, how many more there may be, and how far the outer ones lie along it, in its radii.
+const LUMPS: [u32; 2] = [2, 3];
+const LUMPS_APART: f32 = 0.9;
 /// Share of the regions of granules that are out of focus.
 const OUT_OF_FOCUS: f32 = 0.3;
 /// Particles of cytoplasm in a row that carry granules of a kind: they lie side by side when a cell is made.
@@ -81,10 +84,13 @@ impl AmoeboidBody {
             let share = 1.0 / self.lobes.iter().map(near).sum::<f32>();
             for _ in 0..(fewest + rng.bits() % (most - fewest + 1)) >> number {
                 let at = lobe + rotate(rng.direction() * (0.55 * size * rng.unit()), self.turn());
-                let radius = size * 0.22 * libm::expf(0.35 * rng.normal());
-                let spot = |matter: Matter, shape| Spot { at, radius, matter: matter * share, shape };
-                spots.extend([NUCLEOLUS, DISPLACED].map(|matter| spot(matter, SpotShape::Bump)));
-                spots.push(spot(AROUND_NUCLEOLUS, SpotShape::Ring));
+                let radius = size * 0.20 * libm::expf(0.4 * rng.normal());
+                spots.extend(nucleolus(&mut rng).map(|part| Spot {
+                    at: at + rotate(part.at * radius, self.turn()),
+                    radius: part.radius * radius,
+                    matter: part.matter * share,
+                    ..part
+                }));
             }
         }
     }
@@ -120,6 +126,22 @@ impl AmoeboidBody {
     }
 }
 
+/// A nucleolus of radius 1: lumps of different density along a way, in focus or not, and chromatin around the first.
+fn nucleolus(rng: &mut HashRng) -> impl Iterator<Item = Spot> {
+    let (way, dense, blur) = (rng.direction(), libm::expf(0.45 * rng.normal()), rng.range([0.9, 1.6]));
+    let count = LUMPS[0] + rng.bits() % LUMPS[1];
+    let lumps: Vec<Spot> = (0..count)
+        .flat_map(|_| {
+            let at = way * rng.range([-LUMPS_APART, LUMPS_APART]) + rng.direction() * 0.25;
+            let share = dense * rng.range([0.25, 0.95]) / (blur * blur);
+            let radius = blur * rng.range([0.4, 0.85]);
+            [NUCLEOLUS, DISPLACED].map(|matter| Spot { at, radius, matter: matter * share, shape: SpotShape::Bump })
+        })
+        .collect();
+    let ring = Spot { radius: 1.0, matter: AROUND_NUCLEOLUS, shape: SpotShape::Ring, ..lumps[0] };
+    lumps.into_iter().chain([ring])
+}
+
 /// Smaller granules that lie over the edge of one, at most so many, by its size: what is grown together is no ball.
 fn companions(granule: Spot, most: u32) -> impl Iterator<Item = Spot> {
     let Spot { at, radius, matter, shape } = granule;
@@ -134,4 +156,34 @@ fn companions(granule: Spot, most: u32) -> impl Iterator<Item = Spot> {
             shape,
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Root of the ratio of the largest moment of a nucleolus to its smallest: 1 of a round one.
+    fn shape_of(seed: u32) -> f32 {
+        let lumps: Vec<Spot> = nucleolus(&mut HashRng::new(seed))
+            .filter(|spot| spot.matter.phase > 0.0 && spot.shape == SpotShape::Bump)
+            .collect();
+        let weight = |spot: &Spot| spot.matter.phase * spot.radius * spot.radius;
+        let sum = |of: &dyn Fn(&Spot) -> f32| lumps.iter().map(|spot| weight(spot) * of(spot)).sum::<f32>();
+        let total = sum(&|_| 1.0);
+        let middle = Vec2::new(sum(&|spot| spot.at.x), sum(&|spot| spot.at.y)) / total;
+        let moment = |i: usize, j: usize| {
+            let own = |spot: &Spot| if i == j { 0.2 * spot.radius * spot.radius } else { 0.0 };
+            sum(&|spot| (spot.at - middle)[i] * (spot.at - middle)[j] + own(spot)) / total
+        };
+        let (mean, half) = (0.5 * (moment(0, 0) + moment(1, 1)), 0.5 * (moment(0, 0) - moment(1, 1)));
+        let apart = (half * half + moment(0, 1) * moment(0, 1)).sqrt();
+        ((mean + apart) / (mean - apart)).sqrt()
+    }
+
+    #[test]
+    fn nucleoli_are_not_round() {
+        let mut shapes: Vec<f32> = (0..200).map(shape_of).collect();
+        shapes.sort_by(f32::total_cmp);
+        assert!(shapes[100] > 1.25, "{}", shapes[100]);
+    }
 }

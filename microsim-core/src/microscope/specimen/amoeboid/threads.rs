@@ -4,7 +4,7 @@ use super::super::front::Front;
 use super::super::thread::Thread;
 use super::AmoeboidBody;
 use crate::geometry::{rotate, unit_vector};
-use crate::microscope::maths::{larger, smoothstep};
+use crate::microscope::maths::{larger, mix, smoothstep};
 use crate::microscope::matter::Matter;
 use crate::microscope::noise::{HashRng, scramble, wobble};
 use crate::template::Role;
@@ -15,7 +15,9 @@ use std::f32::consts::TAU;
 /// Time that a thin process takes to come and go, s; half its width where it begins, micrometres, and its points.
 const PROCESS_PERIOD: f32 = 5.0;
 const PROCESS: f32 = 0.26;
-const PROCESS_POINTS: usize = 4;
+const PROCESS_POINTS: usize = 5;
+/// Share of their length that they have where the cell does not draw back.
+const PROCESS_AHEAD: f32 = 0.15;
 /// Half the width of a mitochondrion, micrometres, its points, and turns that it makes in a second.
 const MITOCHONDRION: f32 = 0.13;
 const MITOCHONDRION_POINTS: usize = 4;
@@ -79,16 +81,23 @@ impl AmoeboidBody {
         let mut rng = HashRng::new(own ^ scramble(cycle as u32));
         let direction = (self.from_shape.inverse() * rng.direction()).normalize_or_zero();
         let grown = unit_vector(TAU * 0.5 * cycle.fract()).y;
-        let length = self.look.longest_process * rng.unit() * grown;
+        let length = self.look.longest_process * rng.unit() * grown * self.drawn_back(direction);
         let Some(edge) = self.field.crossing(self.centre, direction, 0.05 * self.radius) else { return };
         let at = self.centre + direction * (edge - 0.5);
         let step = rotate(direction, unit_vector(0.4 * rng.normal())) * ((length + 0.5) / (PROCESS_POINTS - 1) as f32);
-        let bend = unit_vector(0.35 * rng.normal());
+        let bend = unit_vector(0.45 * rng.normal());
         let points: [Vec2; PROCESS_POINTS] = walk(at, step, bend);
         let matter = Matter { cytoplasm: 0.12, ..Matter::phase(0.20) } * smoothstep(0.1, 0.6, length);
         let radius = |k: usize| PROCESS / (1 + k) as f32;
         threads.extend(Thread::curve(&points, radius, matter));
     }
+
+    /// How far processes reach in a direction, as a share: where the cell draws back they are left behind.
+    fn drawn_back(&self, direction: Vec2) -> f32 {
+        let back = smoothstep(-0.1, 0.7, -direction.dot(self.front.direction)) * self.front.strength;
+        mix(PROCESS_AHEAD, 1.0, back)
+    }
+
     /// Threads of chromatin between neighbouring lobes of a nucleus that does not part.
     pub(super) fn filaments(&self) -> Vec<Thread> {
         let mut rng = HashRng::new(self.nucleus_seed() ^ 0xf17a);
