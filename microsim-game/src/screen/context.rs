@@ -17,7 +17,6 @@ use crate::rules::lesson::Lessons;
 use crate::rules::two_players::RoundsWon;
 use crate::scene_source::SceneSource;
 use crate::scenery::{Effort, Scenery, Sight};
-use crate::sound::Cue;
 use crate::stage::Stage;
 use crate::store::best_life::BestLife;
 use crate::store::best_times::BestTimes;
@@ -151,7 +150,7 @@ pub struct AppContext {
     /// The language of the system.
     pub(crate) system_language: &'static Language,
     message: Option<(String, f32)>,
-    captions: Captions,
+    pub(super) captions: Captions,
 }
 
 impl AppContext {
@@ -252,23 +251,6 @@ impl AppContext {
         if let Err(error) = self.chain_records.add(feats, None, &self.store) {
             self.tell_error(Key::LastGameUnkept, &error);
         }
-    }
-
-    /// Plays what was heard in this frame, unless frames are made for pictures, and writes it if the player wants that.
-    pub fn play(&mut self, heard: &[Cue]) {
-        if self.settings.captions {
-            self.captions.add(heard);
-        }
-        let loudness = self.settings.loudness();
-        if loudness > 0.0 && !self.pace.is_exact {
-            heard.iter().for_each(|&cue| self.speaker.play(cue, loudness));
-        }
-    }
-
-    /// Lets the time of this frame pass for what is heard and for its captions.
-    pub(crate) fn pass_sound(&mut self) {
-        self.speaker.pass(self.pace.elapsed);
-        self.captions.pass(self.pace.elapsed);
     }
 
     /// Keeps the settings, and takes over what another window has kept meanwhile of those that were not changed here.

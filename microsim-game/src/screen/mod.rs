@@ -14,6 +14,7 @@ mod food_chain;
 mod food_chain_end;
 mod goals;
 mod guide;
+mod hearing;
 mod join;
 mod keys_menu;
 mod lobby;
